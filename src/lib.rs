@@ -1,0 +1,22 @@
+//! Five university handouts on real-time shadows, each as one lab that reads like its handout.
+//!
+//! | room | what lives there |
+//! |---|---|
+//! | [`scene`] | plain data in f64: meshes, objects, camera, light |
+//! | [`gl`] | what the courses gave their students: shaders, meshes, textures, readback, the call trace |
+//! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
+//! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
+//! | [`picture`] | pictures and depth maps, written to files |
+//! | [`error`] | the one error type |
+//!
+//! Imports go downward only: `headless` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
+#![deny(unsafe_code)]
+
+pub mod error;
+pub mod gl;
+pub mod headless;
+pub mod labs;
+pub mod picture;
+pub mod scene;
+
+pub use error::{Error, Result};

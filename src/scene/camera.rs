@@ -1,0 +1,76 @@
+//! The course's `Camera.h` and what a lab keeps of a camera.
+//!
+//! `view` and `perspective` are the functions that CS 541 hands out: the field of view is in degrees
+//! and horizontal, the look is a direction and not a target.
+
+use glam::{DMat4, DVec3, DVec4};
+
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    pub eye: DVec3,
+    /// A direction, of any length.
+    pub look: DVec3,
+    /// The relative up vector: need not be at right angles to `look`, but not along it.
+    pub rup: DVec3,
+    /// Horizontal field of view in degrees.
+    pub fov: f64,
+    pub near: f64,
+    /// None: infinite, as the three-argument `perspective`.
+    pub far: Option<f64>,
+}
+
+impl Camera {
+    pub fn view(&self) -> DMat4 {
+        view(self.eye, self.look, self.rup)
+    }
+
+    /// `aspect` is width over height.
+    pub fn perspective(&self, aspect: f64) -> DMat4 {
+        perspective(self.fov, aspect, self.near, self.far)
+    }
+}
+
+/// World space to camera space: the camera sits at `eye` and looks along its own −z.
+pub fn view(eye: DVec3, look: DVec3, rup: DVec3) -> DMat4 {
+    let back = -look.normalize();
+    let right = rup.cross(back).normalize();
+    let up = back.cross(right);
+    let rotation = DMat4::from_cols(
+        right.extend(0.0),
+        up.extend(0.0),
+        back.extend(0.0),
+        DVec4::W,
+    )
+    .transpose();
+    rotation * DMat4::from_translation(-eye)
+}
+
+/// Camera space to clip space; `fov` is the horizontal angle in degrees, `aspect` width over height.
+pub fn perspective(fov: f64, aspect: f64, near: f64, far: Option<f64>) -> DMat4 {
+    let x = 1.0 / (fov.to_radians() / 2.0).tan();
+    let (z, translate) = match far {
+        Some(far) => (
+            -(far + near) / (far - near),
+            -2.0 * far * near / (far - near),
+        ),
+        None => (-1.0, -2.0 * near),
+    };
+    DMat4::from_cols(
+        DVec4::new(x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, aspect * x, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, z, -1.0),
+        DVec4::new(0.0, 0.0, translate, 0.0),
+    )
+}
+
+/// An up vector that is never along `look`: y, or z where the camera looks (nearly) along y.
+///
+/// With the up vector along the look, `view` divides zero by zero and the whole map is NaN.
+pub fn up_for(look: DVec3) -> DVec3 {
+    let look = look.normalize();
+    if look.cross(DVec3::Y).length() > 1e-3 {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    }
+}

@@ -1,0 +1,98 @@
+//! Plain data: what is in a scene, in f64, before any lab or driver sees it.
+//!
+//! Lengths are in world units, angles in degrees where a name says so, colours linear in 0…1.
+//! Right-handed; y is up in the scenes that this project made itself.
+
+pub mod camera;
+pub mod mesh;
+pub mod obj;
+pub mod shapes;
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3};
+
+pub use camera::Camera;
+pub use mesh::Mesh;
+
+/// Everything that a lab draws, and that a ray would meet.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub camera: Camera,
+    pub light: Light,
+    /// Light that comes from everywhere and is never shadowed.
+    pub ambient: DVec3,
+    pub sky: Option<Arc<image::RgbImage>>,
+    pub objects: Vec<Object>,
+}
+
+/// One mesh, placed and given a material.
+#[derive(Clone, Debug)]
+pub struct Object {
+    pub name: String,
+    pub mesh: Arc<Mesh>,
+    /// Object space to world space, before the spin.
+    pub placement: DMat4,
+    pub spin: Option<Spin>,
+    pub material: Material,
+    /// Whether the object is drawn into the shadow map.
+    pub casts: bool,
+}
+
+/// A steady turn about an axis through the object's own origin, applied before the placement.
+#[derive(Clone, Copy, Debug)]
+pub struct Spin {
+    pub axis: DVec3,
+    pub degrees_per_second: f64,
+}
+
+#[derive(Clone, Debug)]
+pub struct Material {
+    pub diffuse: DVec3,
+    pub specular: DVec3,
+    pub shininess: f64,
+    pub texture: Option<Arc<image::RgbImage>>,
+}
+
+/// A light source with the camera that its shadow map is drawn from.
+#[derive(Clone, Debug)]
+pub struct Light {
+    pub position: DVec3,
+    /// The way the light travels; any length.
+    pub direction: DVec3,
+    pub color: DVec3,
+    /// Near and far plane of the shadow map's camera.
+    pub near: f64,
+    pub far: f64,
+}
+
+impl Object {
+    /// Object space to world space at `time` seconds.
+    pub fn model(&self, time: f64) -> DMat4 {
+        match self.spin {
+            None => self.placement,
+            Some(spin) => {
+                // Whole turns leave first: the angle stays small however long the program runs.
+                let degrees = (spin.degrees_per_second * time) % 360.0;
+                self.placement * rotate(degrees, spin.axis)
+            }
+        }
+    }
+}
+
+impl Scene {
+    /// The same scene somewhere else: every object, the camera and the light moved by `offset`.
+    pub fn moved(mut self, offset: DVec3) -> Self {
+        self.camera.eye += offset;
+        self.light.position += offset;
+        for object in &mut self.objects {
+            object.placement = DMat4::from_translation(offset) * object.placement;
+        }
+        self
+    }
+}
+
+/// `Affine.h`'s `rotate`: degrees about an axis through the origin.
+pub fn rotate(degrees: f64, axis: DVec3) -> DMat4 {
+    DMat4::from_axis_angle(axis.normalize(), degrees.to_radians())
+}
