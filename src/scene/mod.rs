@@ -37,6 +37,8 @@ pub struct Object {
     pub material: Material,
     /// Whether the object is drawn into the shadow map.
     pub casts: bool,
+    /// Whether the mesh is the course's Plane: a sheet without volume, whose normal is +z in object space.
+    pub plane: bool,
 }
 
 /// A steady turn about an axis through the object's own origin, applied before the placement.
