@@ -1,0 +1,251 @@
+//! Shader files to linked programs; a failure names file, line and the driver's message.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use glam::{DMat3, DMat4, DVec3};
+use glow::HasContext;
+
+use super::mesh::ATTRIBUTES;
+use crate::{Error, Result};
+
+/// A lab's shader files: those in the binary, or a student's own of the same names in their place.
+pub struct Shaders {
+    lab: &'static str,
+    builtin: &'static [(&'static str, &'static str)],
+    students: Option<PathBuf>,
+}
+
+impl Shaders {
+    /// `builtin` holds each file's name and text; `students` is the folder given with `--glsl`.
+    pub fn new(
+        lab: &'static str,
+        builtin: &'static [(&'static str, &'static str)],
+        students: Option<&Path>,
+    ) -> Result<Self> {
+        if let Some(folder) = students {
+            let names: Vec<_> = builtin.iter().map(|(name, _)| *name).collect();
+            std::fs::read_dir(folder).map_err(|cause| Error::reading(folder, cause))?;
+            if !names.iter().any(|name| folder.join(name).exists()) {
+                return Err(Error::input(
+                    folder,
+                    None,
+                    format!(
+                        "none of {lab}'s shaders is here, expected one or more of {}",
+                        names.join(", ")
+                    ),
+                ));
+            }
+        }
+        Ok(Self {
+            lab,
+            builtin,
+            students: students.map(Path::to_owned),
+        })
+    }
+
+    /// The text of a shader, and the path that a message about it names.
+    fn read(&self, name: &str) -> Result<Source> {
+        if let Some(path) = self.students.as_ref().map(|folder| folder.join(name))
+            && path.exists()
+        {
+            let text =
+                std::fs::read_to_string(&path).map_err(|cause| Error::reading(&path, cause))?;
+            return Ok(Source {
+                path,
+                text: Cow::Owned(text),
+                students: true,
+            });
+        }
+        let (_, text) = self
+            .builtin
+            .iter()
+            .find(|(known, _)| *known == name)
+            .expect("a lab asks for its own shaders only");
+        Ok(Source {
+            path: Path::new("glsl").join(self.lab).join(name),
+            text: Cow::Borrowed(text),
+            students: false,
+        })
+    }
+}
+
+struct Source {
+    path: PathBuf,
+    text: Cow<'static, str>,
+    students: bool,
+}
+
+/// A linked program with the locations of its uniforms, looked up once.
+pub struct Program {
+    pub handle: glow::Program,
+    uniforms: HashMap<&'static str, Option<glow::UniformLocation>>,
+}
+
+impl Program {
+    /// Compiles and links two shader files and looks up `uniforms`.
+    ///
+    /// A uniform that is not active in the linked program (misspelt, or without effect) is an error, except
+    /// where a student's own file takes part: there it is said, and setting it does nothing.
+    pub fn new(
+        gl: &glow::Context,
+        shaders: &Shaders,
+        vertex: &str,
+        fragment: &str,
+        uniforms: &[&'static str],
+    ) -> Result<Self> {
+        let sources = [
+            (glow::VERTEX_SHADER, shaders.read(vertex)?),
+            (glow::FRAGMENT_SHADER, shaders.read(fragment)?),
+        ];
+        let names = format!(
+            "{} with {}",
+            sources[0].1.path.display(),
+            sources[1].1.path.display()
+        );
+        let students = sources.iter().any(|(_, source)| source.students);
+        unsafe {
+            let handle = gl.create_program().map_err(Error::gl)?;
+            for (kind, source) in &sources {
+                let shader = compile(gl, *kind, source)?;
+                gl.attach_shader(handle, shader);
+                gl.delete_shader(shader);
+            }
+            for (name, location) in ATTRIBUTES {
+                gl.bind_attrib_location(handle, location, name);
+            }
+            gl.link_program(handle);
+            if !gl.get_program_link_status(handle) {
+                let log = gl.get_program_info_log(handle);
+                let message = log
+                    .lines()
+                    .find(|line| !line.is_empty())
+                    .unwrap_or("no message");
+                return Err(Error::gl(format!("{names}: does not link: {message}")));
+            }
+            let look_up = |name: &&'static str| (*name, gl.get_uniform_location(handle, name));
+            let locations: HashMap<_, _> = uniforms.iter().map(look_up).collect();
+            let inactive = uniforms.iter().filter(|name| locations[**name].is_none());
+            let inactive: Vec<_> = inactive.copied().collect();
+            if !inactive.is_empty() && !students {
+                return Err(Error::gl(format!(
+                    "{names}: no active uniform {}, expected it to be declared and used",
+                    inactive.join(", ")
+                )));
+            }
+            if !inactive.is_empty() {
+                eprintln!(
+                    "note: {names}: without effect, misspelt or unused: {}",
+                    inactive.join(", ")
+                );
+            }
+            Ok(Self {
+                handle,
+                uniforms: locations,
+            })
+        }
+    }
+
+    /// Sets a uniform of this program, which must be in use.
+    pub fn set(&self, gl: &glow::Context, name: &str, value: impl Uniform) {
+        let location = self.uniforms.get(name);
+        let location = location.unwrap_or_else(|| panic!("uniform {name} was not looked up"));
+        if location.is_some() {
+            value.upload(gl, location.as_ref());
+        }
+    }
+}
+
+fn compile(gl: &glow::Context, kind: u32, source: &Source) -> Result<glow::Shader> {
+    unsafe {
+        let shader = gl.create_shader(kind).map_err(Error::gl)?;
+        gl.shader_source(shader, &source.text);
+        gl.compile_shader(shader);
+        if gl.get_shader_compile_status(shader) {
+            return Ok(shader);
+        }
+        let log = gl.get_shader_info_log(shader);
+        let (line, message) = first_message(&log);
+        Err(Error::input(
+            &source.path,
+            line,
+            format!("does not compile: {message}"),
+        ))
+    }
+}
+
+/// The first message of a driver's log, and the line of the shader that it speaks of.
+///
+/// Mesa writes `0:12(5): error: …`, NVIDIA `0(12) : error …`, AMD and Intel `ERROR: 0:12: …`.
+fn first_message(log: &str) -> (Option<usize>, &str) {
+    let message = log
+        .lines()
+        .find(|line| !line.trim().is_empty())
+        .unwrap_or("no message");
+    let place = message.strip_prefix("ERROR: ").unwrap_or(message);
+    let after_string_number = place.trim_start_matches(|c: char| c.is_ascii_digit());
+    let digits = after_string_number.strip_prefix([':', '(']).map(|rest| {
+        rest.split(|c: char| !c.is_ascii_digit())
+            .next()
+            .unwrap_or("")
+    });
+    (digits.and_then(|digits| digits.parse().ok()), message)
+}
+
+/// A value that a uniform takes. Numbers are f64 until here, and rounded to f32 once.
+pub trait Uniform {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>);
+}
+
+impl Uniform for DMat4 {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
+        let columns = self.as_mat4().to_cols_array();
+        unsafe { gl.uniform_matrix_4_f32_slice(location, false, &columns) }
+    }
+}
+
+impl Uniform for DMat3 {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
+        let columns = self.as_mat3().to_cols_array();
+        unsafe { gl.uniform_matrix_3_f32_slice(location, false, &columns) }
+    }
+}
+
+impl Uniform for DVec3 {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
+        let [x, y, z] = self.as_vec3().to_array();
+        unsafe { gl.uniform_3_f32(location, x, y, z) }
+    }
+}
+
+impl Uniform for f64 {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
+        unsafe { gl.uniform_1_f32(location, self as f32) }
+    }
+}
+
+/// Samplers (their texture unit), choices and, as 0 or 1, `bool`s.
+impl Uniform for i32 {
+    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
+        unsafe { gl.uniform_1_i32(location, self) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_message;
+
+    #[test]
+    fn the_line_is_found_in_every_dialect() {
+        for log in [
+            "0:12(5): error: `x' undeclared",
+            "0(12) : error C1503: undefined variable",
+            "ERROR: 0:12: 'x' : undeclared identifier",
+        ] {
+            assert_eq!(first_message(log).0, Some(12), "{log}");
+        }
+        assert_eq!(first_message("error: linking failed").0, None);
+        assert_eq!(first_message("\n\n").1, "no message");
+    }
+}
