@@ -94,6 +94,19 @@ fn write_png(path: &Path, size: [u32; 2], kind: PngKind, bytes: &[u8], notes: No
     })
 }
 
+/// The name of a file to write must end as one of the kinds that can be written.
+pub fn check_name(path: &Path, endings: &[&str]) -> Result<()> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    if ending.is_some_and(|ending| endings.contains(&ending)) {
+        return Ok(());
+    }
+    let expected = endings.join(" or .");
+    Err(Error::usage(format!(
+        "{}: expected the name of a file that ends in .{expected}",
+        path.display()
+    )))
+}
+
 /// Writes a file as a whole or not at all: beside its name first, then renamed.
 pub fn write_whole(
     path: &Path,

@@ -1,1 +1,97 @@
+//! What the students write: one module per handout, and the seam that all labs share.
+//!
+//! A lab reads top to bottom in its handout's order, with the GL calls in plain sight. Command line and tests know
+//! no more of a lab than [`Lab`] and [`Handout`]. Labs never import labs.
 
+pub mod cs541;
+mod explanation;
+mod keys;
+mod settings;
+
+use std::path::Path;
+
+pub use explanation::{Explanation, Probe, Step};
+pub use keys::{Key, parse_keys};
+pub use settings::{Kind, Setting, Settings};
+
+use crate::picture::DepthMap;
+use crate::scene::Scene;
+use crate::{Error, Result, error};
+
+/// Every lab, in the order in which they are listed.
+pub static LABS: &[&Handout] = &[&cs541::HANDOUT];
+
+/// What is known of a lab before there is a context.
+pub struct Handout {
+    /// The address of code, shaders and goldens.
+    pub name: &'static str,
+    pub title: &'static str,
+    /// The size of the course's window, in pixels.
+    pub size: [u32; 2],
+    pub keys: &'static [(&'static str, &'static str)],
+    pub settings: &'static [Setting],
+    /// How many lights have a shadow of their own.
+    pub lights: usize,
+    /// The scene that shows each of the handout's points.
+    pub scene: fn() -> Result<Scene>,
+    pub start: Start,
+}
+
+/// Set-up of a lab for a scene; a student's own shaders are in the folder, if one is given.
+pub type Start = fn(&glow::Context, Scene, Option<&Path>) -> Result<Box<dyn Lab>>;
+
+/// A running lab.
+pub trait Lab {
+    fn settings(&mut self) -> &mut Settings;
+
+    /// Whether the lab knows the key.
+    fn key(&mut self, key: Key) -> bool;
+
+    /// The default framebuffer has a new size, in pixels.
+    fn resize(&mut self, size: [u32; 2]);
+
+    /// Lets time pass, in seconds. There is no other clock.
+    fn advance(&mut self, dt: f64);
+
+    /// Draws one frame into framebuffer 0.
+    fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()>;
+
+    /// The depth map of a light (from 1), as the last frame drew it.
+    fn shadow_map(&self, gl: &glow::Context, light: usize) -> Result<ShadowMap>;
+
+    /// What the handout's shader computes at one place, step by step.
+    fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation>;
+}
+
+/// What a frame shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Show {
+    Picture,
+    /// One channel: 1 lit, 0 in shadow of the light (counted from 1) by the lab's own test, for every pixel of every
+    /// surface, whichever way it faces the light; 1 where there is no surface.
+    Visibility {
+        light: usize,
+    },
+}
+
+/// A depth map, with the planes of the camera that it was drawn from.
+pub struct ShadowMap {
+    pub depths: DepthMap,
+    pub near: f64,
+    pub far: f64,
+}
+
+/// The lab of that name.
+pub fn find(name: &str) -> Result<&'static Handout> {
+    LABS.iter()
+        .copied()
+        .find(|lab| lab.name == name)
+        .ok_or_else(|| {
+            let known: Vec<_> = LABS.iter().map(|lab| lab.name).collect();
+            let hint = error::did_you_mean(name, known.iter().copied());
+            Error::usage(format!(
+                "unknown lab \"{name}\"{hint}: expected one of {}",
+                known.join(", ")
+            ))
+        })
+}

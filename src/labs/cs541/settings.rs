@@ -1,0 +1,110 @@
+//! What can be set, and which keys move what.
+
+use crate::labs::{Kind, Setting};
+
+/// Movements of one key press. The course's programs are each student's own: these steps were chosen.
+pub const EYE_STEP: f64 = 0.25;
+pub const LIGHT_STEP: f64 = 0.25;
+pub const FOV_STEP: f64 = 2.0;
+
+pub const KEYS: &[(&str, &str)] = &[
+    ("w s a d", "move the eye forward, back, left, right"),
+    ("q e", "move the eye up, down"),
+    ("<Left> <Right>", "move the light left, right (along x)"),
+    ("<Up> <Down>", "move the light away, nearer (along z)"),
+    ("<PageUp> <PageDown>", "move the light up, down (along y)"),
+    ("o p", "narrow, widen the field of view"),
+    ("x", "look from the light, and back"),
+    (
+        "<Tab>",
+        "put the light at the eye, pointing where the eye looks",
+    ),
+];
+
+pub const SETTINGS: &[Setting] = &[
+    Setting {
+        name: "light",
+        kind: Kind::Choice(&["spot", "point"]),
+        help: "the light source: a spot light (direction and beam size) or a point light source",
+    },
+    Setting {
+        name: "beam",
+        kind: Kind::Choice(&["rectangular", "circular"]),
+        help: "the spot light's beam",
+    },
+    Setting {
+        name: "spot_angle",
+        kind: Kind::Number {
+            default: 60.0,
+            least: 1.0,
+            most: 170.0,
+            whole: false,
+        },
+        help: "the spot light's full beam angle, and its shadow map's field of view, in degrees",
+    },
+    Setting {
+        name: "shadow_fov",
+        kind: Kind::Number {
+            default: 120.0,
+            least: 1.0,
+            most: 170.0,
+            whole: false,
+        },
+        help: "the point light's shadow map's field-of-view angle, larger than a spot's, in degrees",
+    },
+    Setting {
+        name: "map_size",
+        kind: Kind::Number {
+            default: 1024.0,
+            least: 256.0,
+            most: 8192.0,
+            whole: true,
+        },
+        help: "width and height of the depth buffer texture",
+    },
+    Setting {
+        name: "depth_format",
+        kind: Kind::Choice(&["handout", "16", "24", "32F"]),
+        help: "what the texture stores: the handout's GL_DEPTH_COMPONENT (the driver chooses), or GL_DEPTH_COMPONENT16, 24, 32F",
+    },
+    Setting {
+        name: "filter",
+        kind: Kind::Choice(&["linear", "nearest"]),
+        help: "the depth texture's GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER",
+    },
+    Setting {
+        name: "remedy",
+        kind: Kind::Choice(&["epsilon", "none", "culling", "both"]),
+        help: "against shadow acne: push the fragment towards the light by epsilon, front face culling in the first pass, both, none",
+    },
+    Setting {
+        name: "epsilon",
+        kind: Kind::Number {
+            default: 0.001,
+            least: 0.0,
+            most: 0.1,
+            whole: false,
+        },
+        help: "the small value by which point_depth is decreased",
+    },
+    Setting {
+        name: "second_plane",
+        kind: Kind::Switch { default: false },
+        help: "first pass: a second copy of each Plane, a small amount behind it and with the opposite orientation",
+    },
+    Setting {
+        name: "shadows",
+        kind: Kind::Switch { default: true },
+        help: "the two-pass shadow map; off: local illumination alone",
+    },
+    Setting {
+        name: "rotation",
+        kind: Kind::Switch { default: true },
+        help: "the rotating object rotates",
+    },
+    Setting {
+        name: "redraw",
+        kind: Kind::Choice(&["when_changed", "every_frame"]),
+        help: "the first pass is drawn when the light or a caster has changed, or in every frame as in the course",
+    },
+];

@@ -1,0 +1,206 @@
+//! A lab's settings: one table that drives `--set`, the list in `shadowlab labs`, and whatever else is configurable.
+
+use crate::{Error, Result, error};
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    pub name: &'static str,
+    pub kind: Kind,
+    /// One line, in the handout's words.
+    pub help: &'static str,
+}
+
+/// What values a setting takes, and the default.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    Number {
+        default: f64,
+        least: f64,
+        most: f64,
+        whole: bool,
+    },
+    /// The first one is the default.
+    Choice(&'static [&'static str]),
+    Switch {
+        default: bool,
+    },
+}
+
+impl Kind {
+    /// The default as `--set` would write it.
+    pub fn default_text(&self) -> String {
+        match self {
+            Self::Number { default, .. } => default.to_string(),
+            Self::Choice(names) => names[0].to_owned(),
+            Self::Switch { default } => on_off(*default).to_owned(),
+        }
+    }
+
+    /// The values that it takes, for a person.
+    pub fn expected(&self) -> String {
+        match self {
+            Self::Number {
+                least, most, whole, ..
+            } => {
+                let number = if *whole { "a whole number" } else { "a number" };
+                format!("{number} from {least} to {most}")
+            }
+            Self::Choice(names) => names.join(" | "),
+            Self::Switch { .. } => "on | off".to_owned(),
+        }
+    }
+
+    fn parse(&self, text: &str) -> Option<Value> {
+        match self {
+            Self::Number {
+                least, most, whole, ..
+            } => {
+                let number: f64 = text.parse().ok()?;
+                // A NaN is in no range.
+                let fits = (*least..=*most).contains(&number) && (!whole || number.fract() == 0.0);
+                fits.then_some(Value::Number(number))
+            }
+            Self::Choice(names) => names
+                .iter()
+                .find(|name| **name == text)
+                .map(|name| Value::Choice(name)),
+            Self::Switch { .. } => match text {
+                "on" => Some(Value::Switch(true)),
+                "off" => Some(Value::Switch(false)),
+                _ => None,
+            },
+        }
+    }
+}
+
+fn on_off(on: bool) -> &'static str {
+    if on { "on" } else { "off" }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Value {
+    Number(f64),
+    Choice(&'static str),
+    Switch(bool),
+}
+
+/// The values of a lab's settings.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    table: &'static [Setting],
+    values: Vec<Value>,
+}
+
+impl Settings {
+    pub fn new(table: &'static [Setting]) -> Self {
+        let default = |setting: &Setting| match setting.kind {
+            Kind::Number { default, .. } => Value::Number(default),
+            Kind::Choice(names) => Value::Choice(names[0]),
+            Kind::Switch { default } => Value::Switch(default),
+        };
+        Self {
+            table,
+            values: table.iter().map(default).collect(),
+        }
+    }
+
+    /// Sets `name=value`, as `--set` writes it.
+    pub fn set(&mut self, assignment: &str) -> Result<()> {
+        let (name, text) = assignment
+            .split_once('=')
+            .ok_or_else(|| Error::usage(format!("--set {assignment}: expected name=value")))?;
+        let index = self.table.iter().position(|setting| setting.name == name);
+        let index = index.ok_or_else(|| {
+            let names: Vec<_> = self.table.iter().map(|setting| setting.name).collect();
+            let hint = error::did_you_mean(name, names.iter().copied());
+            Error::usage(format!(
+                "--set {assignment}: unknown setting \"{name}\"{hint}: expected one of {}",
+                names.join(", ")
+            ))
+        })?;
+        let kind = &self.table[index].kind;
+        self.values[index] = kind.parse(text).ok_or_else(|| {
+            Error::usage(format!(
+                "--set {assignment}: \"{text}\" is no value of {name}, expected {}",
+                kind.expected()
+            ))
+        })?;
+        Ok(())
+    }
+
+    pub fn number(&self, name: &str) -> f64 {
+        match self.value(name) {
+            Value::Number(number) => number,
+            other => panic!("{name} is no number: {other:?}"),
+        }
+    }
+
+    pub fn choice(&self, name: &str) -> &'static str {
+        match self.value(name) {
+            Value::Choice(choice) => choice,
+            other => panic!("{name} is no choice: {other:?}"),
+        }
+    }
+
+    pub fn switch(&self, name: &str) -> bool {
+        match self.value(name) {
+            Value::Switch(on) => on,
+            other => panic!("{name} is no switch: {other:?}"),
+        }
+    }
+
+    fn value(&self, name: &str) -> Value {
+        let index = self.table.iter().position(|setting| setting.name == name);
+        self.values[index.unwrap_or_else(|| panic!("no setting {name}"))]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: &[Setting] = &[
+        Setting {
+            name: "map_size",
+            kind: Kind::Number {
+                default: 1024.0,
+                least: 256.0,
+                most: 8192.0,
+                whole: true,
+            },
+            help: "",
+        },
+        Setting {
+            name: "filter",
+            kind: Kind::Choice(&["linear", "nearest"]),
+            help: "",
+        },
+    ];
+
+    #[test]
+    fn values_are_taken_and_defaults_kept() {
+        let mut settings = Settings::new(TABLE);
+        settings.set("filter=nearest").unwrap();
+        assert_eq!(settings.choice("filter"), "nearest");
+        assert_eq!(settings.number("map_size"), 1024.0);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_told_with_what_was_expected() {
+        let mut settings = Settings::new(TABLE);
+        for (assignment, told) in [
+            ("map_size", "name=value"),
+            ("map_sise=512", "did you mean \"map_size\"?"),
+            ("map_size=NaN", "a whole number from 256 to 8192"),
+            ("map_size=inf", "from 256 to 8192"),
+            ("map_size=255", "from 256 to 8192"),
+            ("map_size=512.5", "a whole number"),
+            ("filter=cubic", "linear | nearest"),
+        ] {
+            let error = settings.set(assignment).unwrap_err();
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains(told), "{error}");
+        }
+    }
+}
