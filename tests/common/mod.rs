@@ -1,0 +1,108 @@
+//! What the tests share: a lab in a context on the software renderer, brought to a state.
+#![allow(dead_code)]
+
+use shadowlab::gl;
+use shadowlab::headless::{Choice, Headless};
+use shadowlab::labs::{self, Lab, Show, parse_keys};
+use shadowlab::scene::Scene;
+
+pub struct Bench {
+    pub lab: Box<dyn Lab>,
+    pub context: Headless,
+    pub size: [u32; 2],
+}
+
+impl Bench {
+    pub fn new(lab: &str, size: [u32; 2], settings: &[&str]) -> Self {
+        let scene = (labs::find(lab).unwrap().scene)().unwrap();
+        Self::with_scene(lab, scene, size, settings)
+    }
+
+    pub fn with_scene(lab: &str, scene: Scene, size: [u32; 2], settings: &[&str]) -> Self {
+        let context = Headless::open(&Choice::Software, size, false).unwrap();
+        Self::start(lab, scene, context, size, settings)
+    }
+
+    /// The same with every GL call recorded.
+    pub fn recorded(lab: &str, size: [u32; 2], settings: &[&str]) -> Self {
+        let scene = (labs::find(lab).unwrap().scene)().unwrap();
+        let context = Headless::open(&Choice::Software, size, true).unwrap();
+        Self::start(lab, scene, context, size, settings)
+    }
+
+    fn start(
+        lab: &str,
+        scene: Scene,
+        context: Headless,
+        size: [u32; 2],
+        settings: &[&str],
+    ) -> Self {
+        let mut lab = (labs::find(lab).unwrap().start)(&context.gl, scene, None).unwrap();
+        lab.resize(size);
+        let mut bench = Self { lab, context, size };
+        bench.set(settings);
+        bench
+    }
+
+    pub fn set(&mut self, settings: &[&str]) {
+        for assignment in settings {
+            self.lab.settings().set(assignment).unwrap();
+        }
+    }
+
+    pub fn press(&mut self, keys: &str) {
+        for key in parse_keys(keys).unwrap() {
+            assert!(self.lab.key(key), "no key {key}");
+        }
+    }
+
+    pub fn picture(&mut self) -> image::RgbImage {
+        self.draw(Show::Picture);
+        gl::read_rgb(&self.context.gl, self.size)
+    }
+
+    pub fn visibility(&mut self) -> image::GrayImage {
+        self.draw(Show::Visibility { light: 1 });
+        gl::read_grey(&self.context.gl, self.size)
+    }
+
+    fn draw(&mut self, show: Show) {
+        self.lab.render(&self.context.gl, show).unwrap();
+        gl::check_errors(&self.context.gl, "drawing").unwrap();
+    }
+}
+
+/// The same numbers on every machine and in every run: a 64-bit linear congruential generator.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Less than `end`.
+    pub fn below(&mut self, end: u32) -> u32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) % u64::from(end)) as u32
+    }
+}
+
+/// How many pixels differ at all.
+pub fn differing<P: image::Pixel>(
+    a: &image::ImageBuffer<P, Vec<P::Subpixel>>,
+    b: &image::ImageBuffer<P, Vec<P::Subpixel>>,
+) -> usize
+where
+    P::Subpixel: PartialEq,
+{
+    assert_eq!(a.dimensions(), b.dimensions());
+    let pairs = a.pixels().zip(b.pixels());
+    pairs.filter(|(a, b)| a.channels() != b.channels()).count()
+}
+
+/// An empty folder of a test's own, under the build's folder.
+pub fn work_folder(name: &str) -> std::path::PathBuf {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}

@@ -1,0 +1,242 @@
+//! What the handout promises, held against the lab's pictures.
+
+mod common;
+
+use common::{Bench, differing};
+use glam::{DVec3, dvec3};
+use image::{GrayImage, RgbImage};
+use shadowlab::labs;
+use shadowlab::scene::Scene;
+
+const SIZE: [u32; 2] = [320, 240];
+
+fn scene() -> Scene {
+    (labs::find("cs541").unwrap().scene)().unwrap()
+}
+
+fn dark(visibility: &GrayImage) -> usize {
+    visibility.pixels().filter(|pixel| pixel.0[0] == 0).count()
+}
+
+/// The picture that the visibility foretells: where it is 0, only ambient light; elsewhere, the picture without shadows.
+fn foretold(visibility: &GrayImage, unshadowed: &RgbImage, ambient: &RgbImage) -> RgbImage {
+    RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| {
+        let source = if visibility.get_pixel(x, y).0[0] == 0 {
+            ambient
+        } else {
+            unshadowed
+        };
+        *source.get_pixel(x, y)
+    })
+}
+
+#[test]
+fn visibility_is_the_shadow_test_of_the_lighting_shader() {
+    let dark_light = {
+        let mut scene = scene();
+        scene.light.color = DVec3::ZERO;
+        scene
+    };
+    for setting in [
+        "remedy=epsilon",
+        "remedy=none",
+        "filter=nearest",
+        "light=point",
+        "beam=circular",
+        "depth_format=16",
+    ] {
+        let mut bench = Bench::new("cs541", SIZE, &[setting]);
+        let visibility = bench.visibility();
+        let picture = bench.picture();
+        bench.set(&["shadows=off"]);
+        let unshadowed = bench.picture();
+        let ambient = Bench::with_scene("cs541", dark_light.clone(), SIZE, &[setting]).picture();
+
+        assert!(dark(&visibility) > 1000, "{setting}");
+        let expected = foretold(&visibility, &unshadowed, &ambient);
+        assert_eq!(differing(&picture, &expected), 0, "{setting}");
+
+        // The control: one more row of shadow, and the two no longer agree.
+        let shifted = image::imageops::flip_vertical(&visibility);
+        assert!(differing(&picture, &foretold(&shifted, &unshadowed, &ambient)) > 100);
+    }
+}
+
+#[test]
+fn without_bias_there_is_acne_and_each_remedy_removes_it() {
+    let dark_pixels = |settings: &[&str]| dark(&Bench::new("cs541", SIZE, settings).visibility());
+    let remedied = dark_pixels(&["remedy=epsilon"]);
+    // With GL_LINEAR the map's depths between texels are nearly the surface's own; GL_NEAREST shows half of it dark.
+    assert!(dark_pixels(&["remedy=none"]) > 3 * remedied / 2);
+    assert!(dark_pixels(&["remedy=none", "filter=nearest"]) > 5 * remedied);
+    // Both keep the true shadows, and back faces in shadow or not are a matter of the remedy.
+    for settings in [
+        &["remedy=culling", "second_plane=on"],
+        &["remedy=both", "second_plane=on"],
+    ] {
+        let found = dark_pixels(settings);
+        assert!(
+            found.abs_diff(remedied) < remedied / 2,
+            "{settings:?}: {found}, epsilon {remedied}"
+        );
+    }
+}
+
+#[test]
+fn front_face_culling_loses_the_shadow_of_a_plane_and_a_second_plane_brings_it_back() {
+    // Where the painting's shadow falls on the floor, behind it and to its left.
+    let point = dvec3(-5.0, 0.0, -2.6);
+    let in_shadow = |settings: &[&str]| {
+        let mut bench = Bench::new("cs541", SIZE, settings);
+        let probe = labs::Probe::Point(point);
+        bench
+            .lab
+            .explain(&bench.context.gl, probe)
+            .unwrap()
+            .in_shadow
+            .unwrap()
+    };
+    assert!(in_shadow(&["remedy=epsilon"]));
+    assert!(!in_shadow(&["remedy=culling"]));
+    assert!(in_shadow(&["remedy=culling", "second_plane=on"]));
+}
+
+#[test]
+fn a_scene_far_from_the_origin_has_the_same_shadows() {
+    let here = Bench::new("cs541", SIZE, &[]).visibility();
+    for distance in [1e5, 1e6] {
+        let offset = distance * dvec3(1.0, -2.0, 0.5);
+        let there = Bench::with_scene("cs541", scene().moved(offset), SIZE, &[]).visibility();
+        assert_eq!(differing(&here, &there), 0, "moved by {offset}");
+    }
+    // The control: what an f32 world would do to the light, 1e6 from the origin.
+    let mut scene = scene();
+    scene.light.position += 1.0 / 16.0;
+    let rounded = Bench::with_scene("cs541", scene, SIZE, &[]).visibility();
+    assert!(differing(&here, &rounded) > 50);
+}
+
+#[test]
+fn a_light_along_its_up_vector_works() {
+    for (direction, position) in [
+        (-DVec3::Y, dvec3(0.0, 8.0, 0.0)),
+        (dvec3(1e-9, -3.0, 0.0), dvec3(0.0, 8.0, 0.0)),
+        (-DVec3::Z, dvec3(0.0, 1.0, 9.0)),
+    ] {
+        let mut scene = scene();
+        scene.light.direction = direction;
+        scene.light.position = position;
+        let visibility = Bench::with_scene("cs541", scene, SIZE, &["remedy=epsilon"]).visibility();
+        let dark = dark(&visibility);
+        assert!(
+            (1000..40_000).contains(&dark),
+            "light along {direction}: {dark} dark pixels"
+        );
+    }
+}
+
+#[test]
+fn what_casts_no_shadow_is_not_in_the_map() {
+    let depths = |scene: Scene| {
+        let mut bench = Bench::with_scene("cs541", scene, SIZE, &["map_size=256"]);
+        bench.picture();
+        bench
+            .lab
+            .shadow_map(&bench.context.gl, 1)
+            .unwrap()
+            .depths
+            .depths
+    };
+    let all = scene();
+    assert!(depths(all.clone()).iter().any(|depth| *depth < 1.0));
+
+    // Sky dome and light marker are drawn, and cast nothing.
+    let mut nothing = all.clone();
+    nothing.objects.clear();
+    assert!(depths(nothing).iter().all(|depth| *depth == 1.0));
+
+    let mut no_casters = all;
+    for object in &mut no_casters.objects {
+        object.casts = false;
+    }
+    assert!(depths(no_casters).iter().all(|depth| *depth == 1.0));
+}
+
+#[test]
+fn the_same_state_is_the_same_picture_whatever_came_before() {
+    let straight = Bench::new("cs541", SIZE, &["filter=nearest", "map_size=512"]).picture();
+    let mut bench = Bench::new(
+        "cs541",
+        SIZE,
+        &["light=point", "remedy=culling", "depth_format=16"],
+    );
+    bench.press("<Left><Up>x");
+    bench.picture();
+    bench.visibility();
+    bench.press("<Right><Down>x");
+    bench.set(&[
+        "light=spot",
+        "remedy=epsilon",
+        "depth_format=handout",
+        "filter=nearest",
+        "map_size=512",
+    ]);
+    assert_eq!(differing(&straight, &bench.picture()), 0);
+}
+
+#[test]
+fn every_key_of_the_list_changes_the_picture() {
+    let handout = labs::find("cs541").unwrap();
+    let before = Bench::new("cs541", SIZE, &[]).picture();
+    let listed = handout.keys.iter().flat_map(|(keys, _)| keys.split(' '));
+    let mut count = 0;
+    for key in listed {
+        let mut bench = Bench::new("cs541", SIZE, &[]);
+        bench.press(key);
+        assert!(differing(&before, &bench.picture()) > 100, "{key}");
+        count += 1;
+    }
+    assert_eq!(count, 16);
+    let mut bench = Bench::new("cs541", SIZE, &[]);
+    assert!(
+        !bench.lab.key(labs::Key::Char('z')),
+        "the control: a key of no meaning"
+    );
+}
+
+#[test]
+fn every_setting_is_read() {
+    // Each value that is not the default must change the picture of some state, or the map, or what is drawn.
+    let changes = |base: &[&str], setting: &str| {
+        let before = Bench::new("cs541", SIZE, base).picture();
+        let after = Bench::new("cs541", SIZE, &[base, &[setting]].concat()).picture();
+        differing(&before, &after) > 0
+    };
+    for (base, setting) in [
+        (&[][..], "light=point"),
+        (&[], "beam=circular"),
+        (&[], "spot_angle=40"),
+        (&["light=point"], "shadow_fov=30"),
+        (&[], "map_size=300"),
+        (&["epsilon=0"], "depth_format=16"),
+        (&["remedy=none"], "depth_format=24"),
+        (&["remedy=none"], "depth_format=32F"),
+        (&[], "filter=nearest"),
+        (&[], "remedy=none"),
+        (&[], "remedy=culling"),
+        (&[], "remedy=both"),
+        (&[], "epsilon=0.01"),
+        (&["remedy=culling"], "second_plane=on"),
+        (&[], "shadows=off"),
+    ] {
+        let same_as_handout = setting == "depth_format=24";
+        assert_eq!(changes(base, setting), !same_as_handout, "{setting}");
+    }
+    let mut still = Bench::new("cs541", SIZE, &["rotation=off"]);
+    let before = still.picture();
+    still.lab.advance(1.0);
+    assert_eq!(differing(&before, &still.picture()), 0, "rotation=off");
+    still.set(&["rotation=on"]);
+    still.lab.advance(1.0);
+    assert!(differing(&before, &still.picture()) > 0, "rotation=on");
+}
