@@ -34,7 +34,7 @@ fn foretold(visibility: &GrayImage, unshadowed: &RgbImage, ambient: &RgbImage) -
 fn visibility_is_the_shadow_test_of_the_lighting_shader() {
     let dark_light = {
         let mut scene = scene();
-        scene.light.color = DVec3::ZERO;
+        scene.lights[0].color = DVec3::ZERO;
         scene
     };
     for setting in [
@@ -111,7 +111,7 @@ fn a_scene_far_from_the_origin_has_the_same_shadows() {
     }
     // The control: what an f32 world would do to the light, 1e6 from the origin.
     let mut scene = scene();
-    scene.light.position += 1.0 / 16.0;
+    scene.lights[0].position += 1.0 / 16.0;
     let rounded = Bench::with_scene("cs541", scene, SIZE, &[]).visibility();
     assert!(differing(&here, &rounded) > 50);
 }
@@ -124,8 +124,8 @@ fn a_light_along_its_up_vector_works() {
         (-DVec3::Z, dvec3(0.0, 1.0, 9.0)),
     ] {
         let mut scene = scene();
-        scene.light.direction = direction;
-        scene.light.position = position;
+        scene.lights[0].direction = direction;
+        scene.lights[0].position = position;
         let visibility = Bench::with_scene("cs541", scene, SIZE, &["remedy=epsilon"]).visibility();
         let dark = dark(&visibility);
         assert!(

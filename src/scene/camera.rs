@@ -12,11 +12,41 @@ pub struct Camera {
     pub look: DVec3,
     /// The relative up vector: need not be at right angles to `look`, but not along it.
     pub rup: DVec3,
-    /// Horizontal field of view in degrees.
-    pub fov: f64,
+    pub fov: Fov,
     pub near: f64,
     /// None: infinite, as the three-argument `perspective`.
     pub far: Option<f64>,
+}
+
+/// A field of view, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fov {
+    /// As the course's `perspective` takes it.
+    Horizontal(f64),
+    /// As GLU and most others take it.
+    Vertical(f64),
+}
+
+impl Fov {
+    /// The horizontal angle in a picture that is `aspect` times as wide as high.
+    pub fn horizontal(self, aspect: f64) -> f64 {
+        match self {
+            Self::Horizontal(degrees) => degrees,
+            Self::Vertical(degrees) => {
+                let slope = aspect * (degrees.to_radians() / 2.0).tan();
+                2.0 * slope.atan().to_degrees()
+            }
+        }
+    }
+
+    /// Wider by some degrees, within what a picture can show.
+    pub fn widened(self, by: f64) -> Self {
+        let widened = |degrees: f64| (degrees + by).clamp(1.0, 150.0);
+        match self {
+            Self::Horizontal(degrees) => Self::Horizontal(widened(degrees)),
+            Self::Vertical(degrees) => Self::Vertical(widened(degrees)),
+        }
+    }
 }
 
 impl Camera {
@@ -26,7 +56,7 @@ impl Camera {
 
     /// `aspect` is width over height.
     pub fn perspective(&self, aspect: f64) -> DMat4 {
-        perspective(self.fov, aspect, self.near, self.far)
+        perspective(self.fov.horizontal(aspect), aspect, self.near, self.far)
     }
 }
 

@@ -12,14 +12,18 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-pub use camera::Camera;
+pub use camera::{Camera, Fov};
 pub use mesh::Mesh;
 
 /// Everything that a lab draws, and that a ray would meet.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    /// The size of the picture that the scene was made for; None: the course's window.
+    pub size: Option<[u32; 2]>,
+    /// What is seen where there is neither surface nor sky.
+    pub clear: DVec3,
     pub camera: Camera,
-    pub light: Light,
+    pub lights: Vec<Light>,
     /// Light that comes from everywhere and is never shadowed.
     pub ambient: DVec3,
     pub sky: Option<Arc<image::RgbImage>>,
@@ -59,6 +63,7 @@ pub struct Material {
 /// A light source with the camera that its shadow map is drawn from.
 #[derive(Clone, Debug)]
 pub struct Light {
+    pub kind: LightKind,
     pub position: DVec3,
     /// The way the light travels; any length.
     pub direction: DVec3,
@@ -66,6 +71,24 @@ pub struct Light {
     /// Near and far plane of the shadow map's camera.
     pub near: f64,
     pub far: f64,
+}
+
+/// What kinds of light there are; angles in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    /// `cone` is the beam's full angle.
+    Spot { cone: f64, beam: Beam },
+    /// `shadow_fov` is the field of view of its shadow map.
+    Point { shadow_fov: f64 },
+    /// Parallel rays; left, right, bottom and top of the box that the shadow map covers, seen from the position.
+    Directional { area: [f64; 4] },
+}
+
+/// The cross-section of a spot light's beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Beam {
+    Rectangular,
+    Circular,
 }
 
 impl Object {
@@ -83,10 +106,12 @@ impl Object {
 }
 
 impl Scene {
-    /// The same scene somewhere else: every object, the camera and the light moved by `offset`.
+    /// The same scene somewhere else: every object, the camera and the lights moved by `offset`.
     pub fn moved(mut self, offset: DVec3) -> Self {
         self.camera.eye += offset;
-        self.light.position += offset;
+        for light in &mut self.lights {
+            light.position += offset;
+        }
         for object in &mut self.objects {
             object.placement = DMat4::from_translation(offset) * object.placement;
         }

@@ -104,7 +104,7 @@ impl Cs541 {
             in_shadow,
         ] = values;
         // The shader gets the light's position in f32: less light_vector, that is its own world position.
-        let light = self.scene.light.position - self.camera().eye;
+        let light = self.light().position - self.camera().eye;
         let tests = tests as u32;
         Ok(Some(Fragment {
             position: light.as_vec3().as_dvec3() - DVec3::new(lx, ly, lz),
@@ -189,7 +189,7 @@ impl Cs541 {
         program.set(
             gl,
             "light_position",
-            self.scene.light.position - self.camera().eye,
+            self.light().position - self.camera().eye,
         );
         program.set(gl, "value_number", value);
     }

@@ -26,7 +26,9 @@ use glow::{HasContext, PixelUnpackData};
 use super::{Explanation, Handout, Key, Lab, Probe, Settings, ShadowMap, Show};
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
-use crate::scene::{Camera, Light, Material, Object, Scene, camera, rotate, shapes};
+use crate::scene::{
+    Beam, Camera, Fov, Light, LightKind, Material, Object, Scene, camera, rotate, shapes,
+};
 use crate::{Error, Result};
 use settings::{EYE_STEP, FOV_STEP, KEYS, LIGHT_STEP, SETTINGS};
 
@@ -244,7 +246,8 @@ impl ShadowBuffer {
 
 impl Cs541 {
     fn new(gl: &glow::Context, scene: Scene, students: Option<&Path>) -> Result<Self> {
-        let settings = Settings::new(SETTINGS);
+        let mut settings = Settings::new(SETTINGS);
+        take_light(&scene, &mut settings)?;
         let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
         let first_pass = FirstPass {
             buffer: ShadowBuffer::new(gl, shadow_buffer_kind(gl, &settings))?,
@@ -291,6 +294,34 @@ impl Cs541 {
             shaders,
             explainer: None,
         })
+    }
+}
+
+/// The scene's light decides where the settings start.
+fn take_light(scene: &Scene, settings: &mut Settings) -> Result<()> {
+    let [light] = &scene.lights[..] else {
+        let found = scene.lights.len();
+        return Err(Error::usage(format!(
+            "the scene has {found} lights, expected 1: cs541 has a single light source"
+        )));
+    };
+    match light.kind {
+        LightKind::Spot { cone, beam } => {
+            let beam = match beam {
+                Beam::Rectangular => "rectangular",
+                Beam::Circular => "circular",
+            };
+            settings.set("light=spot")?;
+            settings.set(&format!("beam={beam}"))?;
+            settings.set(&format!("spot_angle={cone}"))
+        }
+        LightKind::Point { shadow_fov } => {
+            settings.set("light=point")?;
+            settings.set(&format!("shadow_fov={shadow_fov}"))
+        }
+        LightKind::Directional { .. } => Err(Error::usage(
+            "the scene has a directional light, expected spot or point: cs541 draws no other",
+        )),
     }
 }
 
@@ -358,7 +389,7 @@ fn shadow_buffer_kind(gl: &glow::Context, settings: &Settings) -> ShadowBufferKi
 impl Cs541 {
     /// The camera with its center of projection at the light.
     fn light_camera(&self) -> Camera {
-        let light = &self.scene.light;
+        let light = &self.light();
         let fov = match self.settings.choice("light") {
             "point" => self.settings.number("shadow_fov"),
             _ => self.settings.number("spot_angle"),
@@ -367,7 +398,7 @@ impl Cs541 {
             eye: light.position,
             look: light.direction,
             rup: camera::up_for(light.direction),
-            fov,
+            fov: Fov::Horizontal(fov),
             near: light.near,
             far: Some(light.far),
         }
@@ -455,6 +486,10 @@ const RECTANGULAR: i32 = 1;
 const CIRCULAR: i32 = 2;
 
 impl Cs541 {
+    fn light(&self) -> &Light {
+        &self.scene.lights[0]
+    }
+
     /// The user's camera, or the light's while `x` is on.
     fn camera(&self) -> Camera {
         if self.look_from_light {
@@ -490,14 +525,15 @@ impl Cs541 {
 
     fn draw_scene(&self, gl: &glow::Context) {
         let _pass = gl::pass(gl, "second pass: using the shadow map");
-        self.select_window(gl, [0.0, 0.0, 0.0, 1.0]);
+        let [red, green, blue] = self.scene.clear.as_vec3().to_array();
+        self.select_window(gl, [red, green, blue, 1.0]);
         self.draw_sky(gl);
 
         let program = &self.second_pass.program;
         let eye = self.camera().eye;
         let Light {
             position, color, ..
-        } = self.scene.light;
+        } = *self.light();
         unsafe { gl.use_program(Some(program.handle)) };
         self.use_shadow_map(gl, program);
         program.set(gl, "usampler", 0);
@@ -620,7 +656,7 @@ impl Cs541 {
             dome.draw(gl);
             unsafe { gl.depth_mask(true) };
         }
-        let light = &self.scene.light;
+        let light = &self.light();
         let offset = light.position - camera.eye;
         // From within, the marker would hide everything.
         if offset.length() > 2.0 * MARKER_RADIUS {
@@ -645,7 +681,7 @@ impl Lab for Cs541 {
     #[doc(alias = "keypress")]
     fn key(&mut self, key: Key) -> bool {
         let camera = &mut self.scene.camera;
-        let light = &mut self.scene.light;
+        let light = &mut self.scene.lights[0];
         let forward = EYE_STEP * camera.look.normalize();
         let right = EYE_STEP * camera.look.cross(camera.rup).normalize();
         let up = EYE_STEP * camera.rup.normalize();
@@ -662,8 +698,8 @@ impl Lab for Cs541 {
             Key::Down => light.position += LIGHT_STEP * DVec3::Z,
             Key::PageUp => light.position += LIGHT_STEP * DVec3::Y,
             Key::PageDown => light.position -= LIGHT_STEP * DVec3::Y,
-            Key::Char('o') => camera.fov = (camera.fov - FOV_STEP).max(2.0),
-            Key::Char('p') => camera.fov = (camera.fov + FOV_STEP).min(150.0),
+            Key::Char('o') => camera.fov = camera.fov.widened(-FOV_STEP),
+            Key::Char('p') => camera.fov = camera.fov.widened(FOV_STEP),
             Key::Char('x') => self.look_from_light = !self.look_from_light,
             Key::Tab => {
                 light.position = camera.eye;
@@ -722,7 +758,7 @@ impl Lab for Cs541 {
             gl.active_texture(glow::TEXTURE1);
             gl.bind_texture(glow::TEXTURE_2D, Some(*depth_texture_buffer));
         }
-        let Light { near, far, .. } = self.scene.light;
+        let Light { near, far, .. } = *self.light();
         Ok(ShadowMap {
             depths: gl::read_depths(gl, [kind.size; 2]),
             near,

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, dvec3};
 use image::RgbImage;
 
-use crate::scene::{Camera, Light, Material, Mesh, Object, Scene, Spin, obj, rotate, shapes};
+use crate::scene::{
+    Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, Spin, obj, rotate, shapes,
+};
 use crate::{Error, Result};
 
 /// The course's constants.
@@ -89,21 +91,27 @@ pub fn default_scene() -> Result<Scene> {
     ];
     objects.extend(lighthouse()?);
     Ok(Scene {
+        size: None,
+        clear: DVec3::ZERO,
         camera: Camera {
             eye: dvec3(0.4, 5.0, 9.4),
             look: dvec3(-0.4, -4.3, -9.4),
             rup: DVec3::Y,
-            fov: 50.0,
+            fov: Fov::Horizontal(50.0),
             near: 0.1,
             far: Some(100.0),
         },
-        light: Light {
+        lights: vec![Light {
+            kind: LightKind::Spot {
+                cone: 60.0,
+                beam: Beam::Rectangular,
+            },
             position: dvec3(3.5, 7.5, 4.0),
             direction: dvec3(-3.7, -7.3, -4.2),
             color: DVec3::splat(0.95),
             near: 2.0,
             far: 20.0,
-        },
+        }],
         ambient: DVec3::splat(0.25),
         sky: Some(decode(
             "sky.png",

@@ -37,7 +37,7 @@ pub const SETTINGS: &[Setting] = &[
         kind: Kind::Number {
             default: 60.0,
             least: 1.0,
-            most: 170.0,
+            most: 179.0,
             whole: false,
         },
         help: "the spot light's full beam angle, and its shadow map's field of view, in degrees",
@@ -47,7 +47,7 @@ pub const SETTINGS: &[Setting] = &[
         kind: Kind::Number {
             default: 120.0,
             least: 1.0,
-            most: 170.0,
+            most: 179.0,
             whole: false,
         },
         help: "the point light's shadow map's field-of-view angle, larger than a spot's, in degrees",
