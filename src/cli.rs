@@ -11,6 +11,7 @@ use shadowlab::headless::{self, Choice, Headless};
 use shadowlab::labs::{self, Handout, Lab, Probe, Show, parse_keys};
 use shadowlab::{Error, Result, picture};
 
+use crate::measuring;
 use crate::timings::Timings;
 
 /// The step of time between the frames of --frames, in seconds.
@@ -36,6 +37,10 @@ enum Command {
     Trace(Trace),
     /// Print what the handout's shader computes at one place, step by step
     Explain(Explain),
+    /// Cast rays for what is in shadow in truth, and write the mask
+    Truth(measuring::TruthCommand),
+    /// Hold the lab's shadows, or a visibility picture, against the truth
+    Measure(measuring::MeasureCommand),
     /// List the labs with their keys and settings
     Labs,
     /// List the renderers that EGL offers
@@ -44,9 +49,9 @@ enum Command {
 
 /// Which state of which lab.
 #[derive(Args)]
-struct State {
+pub struct State {
     /// The lab's name, as `shadowlab labs` lists it
-    lab: String,
+    pub lab: String,
     /// Size of the picture in pixels [default: the course's window]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
@@ -66,7 +71,7 @@ struct State {
     time: f64,
     /// Frames to draw, 1/60 s apart; the last one is kept
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    frames: u32,
+    pub frames: u32,
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     glsl: Option<PathBuf>,
@@ -136,6 +141,8 @@ impl Cli {
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
             Command::Explain(options) => options.run(),
+            Command::Truth(options) => options.run(),
+            Command::Measure(options) => options.run(),
             Command::Labs => print(&labs_text()),
             Command::Devices => print(&devices_text()?),
         }
@@ -145,17 +152,18 @@ impl Cli {
 // ---- A lab in a state ------------------------------------------------------------------------------------------------
 
 /// A lab in a context, brought to the state that the options name, before its first frame.
-struct Running {
+pub struct Running {
     // The lab's GL objects go before their context does.
-    lab: Box<dyn Lab>,
-    context: Headless,
-    size: [u32; 2],
+    pub lab: Box<dyn Lab>,
+    pub context: Headless,
+    pub name: &'static str,
+    pub size: [u32; 2],
     timings: Timings,
 }
 
 impl State {
     /// `first` are settings of the command's own, which the user's `--set` may overrule.
-    fn start(&self, first: &[&str], record: bool) -> Result<Running> {
+    pub fn start(&self, first: &[&str], record: bool) -> Result<Running> {
         let mut timings = Timings::new();
         let handout = labs::find(&self.lab)?;
         let keys = parse_keys(&self.keys)?;
@@ -201,6 +209,7 @@ impl State {
         Ok(Running {
             lab,
             context,
+            name: handout.name,
             size,
             timings,
         })
@@ -208,7 +217,7 @@ impl State {
 }
 
 impl Running {
-    fn draw(&mut self, frames: u32, show: Show) -> Result<()> {
+    pub fn draw(&mut self, frames: u32, show: Show) -> Result<()> {
         for frame in 0..frames {
             if frame > 0 {
                 self.lab.advance(FRAME);
@@ -337,7 +346,7 @@ fn devices_text() -> Result<String> {
 }
 
 /// A closed pipe (`| head`) is no failure of ours.
-fn print(text: &str) -> Result<()> {
+pub fn print(text: &str) -> Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Error::writing("standard output", error))
@@ -348,7 +357,7 @@ fn print(text: &str) -> Result<()> {
 
 // ---- Values of options -----------------------------------------------------------------------------------------------
 
-fn check_light(handout: &Handout, light: usize) -> Result<()> {
+pub fn check_light(handout: &Handout, light: usize) -> Result<()> {
     if (1..=handout.lights).contains(&light) {
         return Ok(());
     }

@@ -5,6 +5,8 @@
 //! | [`scene`] | plain data in f64: meshes, objects, camera, light |
 //! | [`gl`] | what the courses gave their students: shaders, meshes, textures, readback, the call trace |
 //! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
+//! | [`ground_truth`] | what is in shadow in truth: rays in f64, which know no lab |
+//! | [`measure`] | a visibility picture against the truth, in figures |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
 //! | [`picture`] | pictures and depth maps, written to files |
 //! | [`error`] | the one error type |
@@ -14,8 +16,10 @@
 
 pub mod error;
 pub mod gl;
+pub mod ground_truth;
 pub mod headless;
 pub mod labs;
+pub mod measure;
 pub mod picture;
 pub mod scene;
 

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod cli;
+mod measuring;
 mod timings;
 
 use std::process::ExitCode;

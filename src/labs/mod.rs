@@ -32,6 +32,8 @@ pub struct Handout {
     pub settings: &'static [Setting],
     /// How many lights have a shadow of their own.
     pub lights: usize,
+    /// Makes the lab's own remedy against acne use this bias, in depth as the map stores it.
+    pub set_bias: fn(&mut Settings, f64) -> Result<()>,
     /// The scene that shows each of the handout's points.
     pub scene: fn() -> Result<Scene>,
     pub start: Start,
@@ -59,6 +61,13 @@ pub trait Lab {
     /// The depth map of a light (from 1), as the last frame drew it.
     fn shadow_map(&self, gl: &glow::Context, light: usize) -> Result<ShadowMap>;
 
+    /// The scene at this moment, with everything that keys and settings have changed, and nothing that still moves:
+    /// what the ground truth sees.
+    fn now(&self) -> Scene;
+
+    /// The sizes that the errors of a light's map (from 1) are told in; None without a map.
+    fn map_scale(&self, light: usize) -> Option<MapScale>;
+
     /// What the handout's shader computes at one place, step by step.
     fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation>;
 }
@@ -79,6 +88,18 @@ pub struct ShadowMap {
     pub depths: DepthMap,
     pub near: f64,
     pub far: f64,
+}
+
+/// The sizes of the shadow map that errors are told in.
+#[derive(Clone, Copy, Debug)]
+pub struct MapScale {
+    /// Texels across the map.
+    pub size: u32,
+    /// Near and far plane of the camera that it was drawn from.
+    pub near: f64,
+    pub far: f64,
+    /// By how much the test moves a point towards the light, in depth as the map stores it (0…1).
+    pub bias: f64,
 }
 
 /// The lab of that name.

@@ -23,7 +23,7 @@ use std::path::Path;
 use glam::{DMat3, DMat4, DVec3};
 use glow::{HasContext, PixelUnpackData};
 
-use super::{Explanation, Handout, Key, Lab, Probe, Settings, ShadowMap, Show};
+use super::{Explanation, Handout, Key, Lab, MapScale, Probe, Settings, ShadowMap, Show};
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
 use crate::scene::{
@@ -39,6 +39,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     settings: SETTINGS,
     lights: 1,
+    set_bias,
     scene: scene::default_scene,
     start: |gl, scene, students| Ok(Box::new(Cs541::new(gl, scene, students)?)),
 };
@@ -387,9 +388,25 @@ fn shadow_buffer_kind(gl: &glow::Context, settings: &Settings) -> ShadowBufferKi
 // ---- First pass: drawing the shadow map ------------------------------------------------------------------------------
 
 impl Cs541 {
+    /// The kind of light that the settings ask for.
+    fn light_kind(&self) -> LightKind {
+        match self.settings.choice("light") {
+            "point" => LightKind::Point {
+                shadow_fov: self.settings.number("shadow_fov"),
+            },
+            _ => LightKind::Spot {
+                cone: self.settings.number("spot_angle"),
+                beam: match self.settings.choice("beam") {
+                    "circular" => Beam::Circular,
+                    _ => Beam::Rectangular,
+                },
+            },
+        }
+    }
+
     /// The camera with its center of projection at the light.
     fn light_camera(&self) -> Camera {
-        let light = &self.light();
+        let light = self.light();
         let fov = match self.settings.choice("light") {
             "point" => self.settings.number("shadow_fov"),
             _ => self.settings.number("spot_angle"),
@@ -468,6 +485,16 @@ impl Cs541 {
             gl.bind_framebuffer(glow::FRAMEBUFFER, None);
         }
     }
+}
+
+/// The remedy with epsilon in place of the one without, and that epsilon.
+fn set_bias(settings: &mut Settings, bias: f64) -> Result<()> {
+    match settings.choice("remedy") {
+        "none" => settings.set("remedy=epsilon")?,
+        "culling" => settings.set("remedy=both")?,
+        _ => (),
+    }
+    settings.set(&format!("epsilon={bias}"))
 }
 
 /// The second copy of a Plane: a small amount behind the first one, facing the other way.
@@ -763,6 +790,27 @@ impl Lab for Cs541 {
             depths: gl::read_depths(gl, [kind.size; 2]),
             near,
             far,
+        })
+    }
+
+    fn now(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        scene.camera = self.camera();
+        scene.lights[0].kind = self.light_kind();
+        for object in &mut scene.objects {
+            object.placement = object.model(self.time);
+            object.spin = None;
+        }
+        scene
+    }
+
+    fn map_scale(&self, _light: usize) -> Option<MapScale> {
+        let Light { near, far, .. } = *self.light();
+        self.settings.switch("shadows").then(|| MapScale {
+            size: self.first_pass.buffer.kind.size,
+            near,
+            far,
+            bias: self.epsilon(),
         })
     }
 

@@ -1,0 +1,74 @@
+//! Lights with an area: how much of the light a point sees.
+
+use glam::DVec3;
+
+use super::{Ray, Rays};
+
+/// A flat light: all points centre + a·u + b·v with |a|, |b| ≤ 1, or a² + b² ≤ 1 for a disc; relative to the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLight {
+    pub centre: DVec3,
+    pub u: DVec3,
+    pub v: DVec3,
+    pub disc: bool,
+}
+
+/// The share of an area light that a point sees, and the standard error of that mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penumbra {
+    pub visibility: f64,
+    pub standard_error: f64,
+}
+
+/// How many independent sets the samples are split into; their scatter gives the standard error.
+const SETS: u32 = 16;
+
+impl AreaLight {
+    /// Sample `index` of a set: the R2 sequence of Roberts (2018), which fills the square evenly, shifted for each set.
+    fn point(&self, set: u32, index: u32) -> DVec3 {
+        // The inverse of the plastic number, the root of x³ = x + 1, and its square.
+        const STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+        // Any shift will do for a set of its own: the fractions of the golden ratio's multiples.
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let shift = [f64::from(set) * GOLDEN, f64::from(set * set) * GOLDEN];
+        let [a, b] = [0, 1].map(|i| (shift[i] + f64::from(index) * STEP[i] + 0.5).fract());
+        if self.disc {
+            // Equal areas: the square root of the radius, all around.
+            let (sin, cos) = (std::f64::consts::TAU * b).sin_cos();
+            self.centre + a.sqrt() * (cos * self.u + sin * self.v)
+        } else {
+            self.centre + (2.0 * a - 1.0) * self.u + (2.0 * b - 1.0) * self.v
+        }
+    }
+}
+
+impl Rays {
+    /// The share of the light that is seen from a point of a triangle, by `samples` rays at least.
+    pub fn penumbra(
+        &self,
+        triangle: u32,
+        point: DVec3,
+        light: &AreaLight,
+        samples: u32,
+    ) -> Penumbra {
+        let per_set = samples.div_ceil(SETS).max(1);
+        let seen = |set: u32, index: u32| {
+            let ray = Ray::new(point, light.point(set, index) - point);
+            !self
+                .surfaces
+                .is_met(&ray, 1.0, |other| self.blocks(other, triangle))
+        };
+        let mean_of_set = |set: u32| {
+            let count = (0..per_set).filter(|index| seen(set, *index)).count();
+            count as f64 / f64::from(per_set)
+        };
+        let means: Vec<f64> = (0..SETS).map(mean_of_set).collect();
+        let sets = f64::from(SETS);
+        let visibility = means.iter().sum::<f64>() / sets;
+        let scatter: f64 = means.iter().map(|mean| (mean - visibility).powi(2)).sum();
+        Penumbra {
+            visibility,
+            standard_error: (scatter / (sets - 1.0) / sets).sqrt(),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! A light as the rays see it: where it is, or where it comes from, and what its beam reaches.
+
+use glam::DVec3;
+
+use crate::scene::{Beam, Light, LightKind, camera};
+
+/// A light source relative to some origin.
+#[derive(Clone, Debug)]
+pub struct Source {
+    pub position: DVec3,
+    /// The beam's axis and the two directions across it; each of length 1.
+    pub axis: DVec3,
+    pub right: DVec3,
+    pub up: DVec3,
+    kind: LightKind,
+}
+
+impl Source {
+    pub fn new(light: &Light, origin: DVec3) -> Self {
+        let axis = light.direction.normalize();
+        let right = axis.cross(camera::up_for(axis)).normalize();
+        Self {
+            position: light.position - origin,
+            axis,
+            right,
+            up: right.cross(axis),
+            kind: light.kind,
+        }
+    }
+
+    /// From a point to the light: all the way, or against the parallel rays.
+    pub fn towards(&self, point: DVec3) -> DVec3 {
+        match self.kind {
+            LightKind::Directional { .. } => -self.axis,
+            LightKind::Spot { .. } | LightKind::Point { .. } => self.position - point,
+        }
+    }
+
+    /// How far along [`Self::towards`] something can stand before the light.
+    pub fn end(&self) -> f64 {
+        match self.kind {
+            LightKind::Directional { .. } => f64::INFINITY,
+            LightKind::Spot { .. } | LightKind::Point { .. } => 1.0,
+        }
+    }
+
+    /// Whether a point lies in the beam.
+    pub fn reaches(&self, point: DVec3) -> bool {
+        let LightKind::Spot { cone, beam } = self.kind else {
+            return true;
+        };
+        let from_light = point - self.position;
+        let forward = from_light.dot(self.axis);
+        let across = [from_light.dot(self.right), from_light.dot(self.up)];
+        let half_width = forward * (cone.to_radians() / 2.0).tan();
+        forward > 0.0
+            && match beam {
+                Beam::Circular => across[0].hypot(across[1]) <= half_width,
+                Beam::Rectangular => across.iter().all(|a| a.abs() <= half_width),
+            }
+    }
+
+    /// The slope of the shadow map's edge: half its width at distance 1. None for parallel rays.
+    pub fn map_slope(&self) -> Option<f64> {
+        let (LightKind::Spot { cone: fov, .. } | LightKind::Point { shadow_fov: fov }) = self.kind
+        else {
+            return None;
+        };
+        Some((fov.to_radians() / 2.0).tan())
+    }
+}
