@@ -20,18 +20,16 @@ pub struct Penumbra {
     pub standard_error: f64,
 }
 
-/// How many independent sets the samples are split into; their scatter gives the standard error.
-const SETS: u32 = 16;
+/// How many stretches the sequence of samples is cut into; their scatter gives the standard error. It is an upper bound:
+/// the whole sequence fills the light more evenly than its stretches do.
+const STRETCHES: u32 = 16;
 
 impl AreaLight {
-    /// Sample `index` of a set: the R2 sequence of Roberts (2018), which fills the square evenly, shifted for each set.
-    fn point(&self, set: u32, index: u32) -> DVec3 {
+    /// Sample `index`: the R2 sequence of Roberts (2018), which fills the square evenly.
+    fn point(&self, index: u32) -> DVec3 {
         // The inverse of the plastic number, the root of x³ = x + 1, and its square.
         const STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
-        // Any shift will do for a set of its own: the fractions of the golden ratio's multiples.
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let shift = [f64::from(set) * GOLDEN, f64::from(set * set) * GOLDEN];
-        let [a, b] = [0, 1].map(|i| (shift[i] + f64::from(index) * STEP[i] + 0.5).fract());
+        let [a, b] = STEP.map(|step| (0.5 + f64::from(index) * step).fract());
         if self.disc {
             // Equal areas: the square root of the radius, all around.
             let (sin, cos) = (std::f64::consts::TAU * b).sin_cos();
@@ -51,24 +49,24 @@ impl Rays {
         light: &AreaLight,
         samples: u32,
     ) -> Penumbra {
-        let per_set = samples.div_ceil(SETS).max(1);
-        let seen = |set: u32, index: u32| {
-            let ray = Ray::new(point, light.point(set, index) - point);
+        let stretch = samples.div_ceil(STRETCHES).max(1);
+        let seen = |index: &u32| {
+            let ray = Ray::new(point, light.point(*index) - point);
             !self
                 .surfaces
                 .is_met(&ray, 1.0, |other| self.blocks(other, triangle))
         };
-        let mean_of_set = |set: u32| {
-            let count = (0..per_set).filter(|index| seen(set, *index)).count();
-            count as f64 / f64::from(per_set)
+        let mean_of_stretch = |number: u32| {
+            let indices = number * stretch..(number + 1) * stretch;
+            indices.filter(seen).count() as f64 / f64::from(stretch)
         };
-        let means: Vec<f64> = (0..SETS).map(mean_of_set).collect();
-        let sets = f64::from(SETS);
-        let visibility = means.iter().sum::<f64>() / sets;
+        let means: Vec<f64> = (0..STRETCHES).map(mean_of_stretch).collect();
+        let count = f64::from(STRETCHES);
+        let visibility = means.iter().sum::<f64>() / count;
         let scatter: f64 = means.iter().map(|mean| (mean - visibility).powi(2)).sum();
         Penumbra {
             visibility,
-            standard_error: (scatter / (sets - 1.0) / sets).sqrt(),
+            standard_error: (scatter / (count - 1.0) / count).sqrt(),
         }
     }
 }

@@ -106,3 +106,10 @@ pub fn work_folder(name: &str) -> std::path::PathBuf {
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }
+
+impl Bench {
+    /// The default state's visibility, at the size that most tests have.
+    pub fn default_visibility() -> image::GrayImage {
+        Self::new("cs541", [320, 240], &[]).visibility()
+    }
+}
