@@ -9,6 +9,7 @@ use glam::DVec3;
 use shadowlab::gl::{self, trace};
 use shadowlab::headless::{self, Choice, Headless};
 use shadowlab::labs::{self, Handout, Lab, Probe, Show, parse_keys};
+use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, picture};
 
 use crate::measuring;
@@ -31,6 +32,8 @@ pub struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Open a lab in a window; the key ? there lists the keys
+    View(ViewOptions),
     /// Draw a lab without a display and write the picture
     Screenshot(Screenshot),
     /// Print the GL calls of start-up and of the frames, in C syntax
@@ -58,7 +61,7 @@ pub struct State {
     /// Give a setting another value; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Press keys first, for example "wwa<Left><Left>"
+    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse
     #[arg(
         long,
         value_name = "KEYS",
@@ -69,12 +72,17 @@ pub struct State {
     /// Seconds that pass before the first frame
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_time, allow_negative_numbers = true)]
     time: f64,
-    /// Frames to draw, 1/60 s apart; the last one is kept
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub frames: u32,
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     glsl: Option<PathBuf>,
+}
+
+/// How frames are drawn without a display.
+#[derive(Args)]
+pub struct Drawing {
+    /// Frames to draw, 1/60 s apart; the last one is kept
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: u32,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
@@ -84,9 +92,39 @@ pub struct State {
 }
 
 #[derive(Args)]
+struct ViewOptions {
+    #[command(flatten)]
+    state: State,
+    /// Whether a frame waits for the screen
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    vsync: Switch,
+    /// How the window gets its context: GLX and EGL for X11, EGL for Wayland
+    #[arg(long, value_enum, default_value_t = ApiOption::Auto)]
+    api: ApiOption,
+    /// Draw N frames without a rest and end; each thousandth is told on standard output
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    frames: Option<u64>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ApiOption {
+    Auto,
+    Glx,
+    Egl,
+}
+
+#[derive(Args)]
 struct Screenshot {
     #[command(flatten)]
     state: State,
+    #[command(flatten)]
+    drawing: Drawing,
     /// The file to write [default: LAB.png]
     #[arg(short, long = "output", value_name = "FILE")]
     output: Option<PathBuf>,
@@ -114,12 +152,16 @@ enum Shown {
 struct Trace {
     #[command(flatten)]
     state: State,
+    #[command(flatten)]
+    drawing: Drawing,
 }
 
 #[derive(Args)]
 struct Explain {
     #[command(flatten)]
     state: State,
+    #[command(flatten)]
+    drawing: Drawing,
     #[command(flatten)]
     place: Place,
 }
@@ -136,8 +178,9 @@ struct Place {
 }
 
 impl Cli {
-    pub fn run(&self) -> Result<()> {
-        match &self.command {
+    pub fn run(self) -> Result<()> {
+        match self.command {
+            Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
             Command::Explain(options) => options.run(),
@@ -163,16 +206,16 @@ pub struct Running {
 
 impl State {
     /// `first` are settings of the command's own, which the user's `--set` may overrule.
-    pub fn start(&self, first: &[&str], record: bool) -> Result<Running> {
+    pub fn start(&self, drawing: &Drawing, first: &[&str], record: bool) -> Result<Running> {
         let mut timings = Timings::new();
         let handout = labs::find(&self.lab)?;
-        let keys = parse_keys(&self.keys)?;
+        parse_keys(&self.keys)?;
         let size = self.size.unwrap_or(handout.size);
 
         // The driver's start and the scene's files have nothing to do with each other, so they go side by side.
         let (context, scene) = std::thread::scope(|scope| {
             let scene = scope.spawn(|| (handout.scene)());
-            let context = Headless::open(&self.device, size, record);
+            let context = Headless::open(&drawing.device, size, record);
             (
                 context,
                 scene.join().expect("a scene is built without panic"),
@@ -183,17 +226,41 @@ impl State {
 
         let mut lab = (handout.start)(&context.gl, scene, self.glsl.as_deref())?;
         lab.resize(size);
-        for assignment in first
-            .iter()
-            .copied()
-            .chain(self.set.iter().map(String::as_str))
-        {
+        for assignment in first {
             lab.settings().set(assignment)?;
         }
-        for key in keys {
-            if !lab.key(key) {
+        self.bring(handout, lab.as_mut())?;
+        timings.lap("shaders, meshes, textures");
+        Ok(Running {
+            lab,
+            context,
+            name: handout.name,
+            size,
+            timings,
+        })
+    }
+
+    /// The options but for size, keys and time, as another command line would repeat them.
+    fn options(&self) -> Vec<String> {
+        let mut options = Vec::new();
+        for assignment in &self.set {
+            options.extend(["--set".to_owned(), assignment.clone()]);
+        }
+        if let Some(folder) = &self.glsl {
+            options.extend(["--glsl".to_owned(), folder.display().to_string()]);
+        }
+        options
+    }
+
+    /// Brings a lab that has just started to this state.
+    fn bring(&self, handout: &Handout, lab: &mut dyn Lab) -> Result<()> {
+        for assignment in &self.set {
+            lab.settings().set(assignment)?;
+        }
+        for input in parse_keys(&self.keys)? {
+            if !lab.input(input) {
                 return Err(Error::usage(format!(
-                    "--keys: {} has no key {key}, expected one of {}",
+                    "--keys: {} has no key {input}, expected one of {}",
                     handout.name,
                     handout
                         .keys
@@ -205,14 +272,7 @@ impl State {
             }
         }
         lab.advance(self.time);
-        timings.lap("shaders, meshes, textures");
-        Ok(Running {
-            lab,
-            context,
-            name: handout.name,
-            size,
-            timings,
-        })
+        Ok(())
     }
 }
 
@@ -230,6 +290,32 @@ impl Running {
 
 // ---- The commands ----------------------------------------------------------------------------------------------------
 
+impl ViewOptions {
+    fn run(self) -> Result<()> {
+        let state = self.state;
+        let handout = labs::find(&state.lab)?;
+        let inputs = parse_keys(&state.keys)?;
+        let scene = (handout.scene)()?;
+        window::open(View {
+            handout,
+            size: state.size.or(scene.size).unwrap_or(handout.size),
+            scene,
+            inputs,
+            time: state.time,
+            glsl: state.glsl.clone(),
+            options: state.options(),
+            prepare: Box::new(move |lab| state.bring(handout, lab)),
+            vsync: self.vsync == Switch::On,
+            api: match self.api {
+                ApiOption::Auto => Api::Auto,
+                ApiOption::Glx => Api::Glx,
+                ApiOption::Egl => Api::Egl,
+            },
+            frames: self.frames,
+        })
+    }
+}
+
 impl Screenshot {
     fn run(&self) -> Result<()> {
         let handout = labs::find(&self.state.lab)?;
@@ -245,15 +331,15 @@ impl Screenshot {
             },
         )?;
 
-        let mut running = self.state.start(&[], false)?;
+        let mut running = self.state.start(&self.drawing, &[], false)?;
         let show = match self.show {
             Shown::Visibility => Show::Visibility { light: self.light },
             _ => Show::Picture,
         };
-        running.draw(self.state.frames, show)?;
+        running.draw(self.drawing.frames, show)?;
         running.write(self.show, self.light, &output)?;
         running.timings.lap("file");
-        if self.state.timings {
+        if self.drawing.timings {
             eprint!("{}", running.timings);
         }
         print(&format!("{}\n", output.display()))
@@ -263,13 +349,7 @@ impl Screenshot {
 impl Running {
     fn write(&mut self, shown: Shown, light: usize, output: &Path) -> Result<()> {
         let gl = &self.context.gl;
-        let notes = [
-            (
-                "Software",
-                format!("shadowlab {}", env!("CARGO_PKG_VERSION")),
-            ),
-            ("Renderer", self.context.renderer.clone()),
-        ];
+        let notes = picture::notes(&self.context.renderer);
         match shown {
             Shown::Picture => {
                 let pixels = gl::read_rgb(gl, self.size);
@@ -282,12 +362,13 @@ impl Running {
                 picture::write_grey(output, &pixels, &notes)
             }
             Shown::ShadowMap | Shown::DepthRaw => {
-                let map = self.lab.shadow_map(gl, light)?;
+                let map = self.lab.shadow_texture(light)?;
+                let depths = gl::read_depths(gl, map.texture, map.size);
                 self.timings.lap("first frame");
                 if shown == Shown::DepthRaw {
-                    return picture::write_depths(output, &map.depths, &notes);
+                    return picture::write_depths(output, &depths, &notes);
                 }
-                picture::write_grey(output, &map.depths.linearised(map.near, map.far), &notes)
+                picture::write_grey(output, &depths.linearised(map.near, map.far), &notes)
             }
         }
     }
@@ -296,8 +377,10 @@ impl Running {
 impl Trace {
     fn run(&self) -> Result<()> {
         // As the course does it, each frame draws both passes.
-        let mut running = self.state.start(&["redraw=every_frame"], true)?;
-        running.draw(self.state.frames, Show::Picture)?;
+        let mut running = self
+            .state
+            .start(&self.drawing, &["redraw=every_frame"], true)?;
+        running.draw(self.drawing.frames, Show::Picture)?;
         print(&trace::to_c(&trace::take()))
     }
 }
@@ -309,8 +392,8 @@ impl Explain {
             (None, Some(point)) => Probe::Point(DVec3::from_array(point)),
             (None, None) => unreachable!("clap asks for one of them"),
         };
-        let mut running = self.state.start(&[], false)?;
-        running.draw(self.state.frames - 1, Show::Picture)?;
+        let mut running = self.state.start(&self.drawing, &[], false)?;
+        running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running.lab.explain(&running.context.gl, probe)?;
         print(&explanation.to_string())
     }

@@ -8,10 +8,11 @@
 //! | [`ground_truth`] | what is in shadow in truth: rays in f64, which know no lab |
 //! | [`measure`] | a visibility picture against the truth, in figures |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
+//! | [`window`] | the desktop viewer |
 //! | [`picture`] | pictures and depth maps, written to files |
 //! | [`error`] | the one error type |
 //!
-//! Imports go downward only: `headless` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
+//! Imports go downward only: `headless`, `window` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
 pub mod error;
@@ -22,5 +23,6 @@ pub mod labs;
 pub mod measure;
 pub mod picture;
 pub mod scene;
+pub mod window;
 
 pub use error::{Error, Result};

@@ -12,12 +12,14 @@ use shadowlab::labs::{self, Show};
 use shadowlab::measure::Measure;
 use shadowlab::{Error, Result, picture};
 
-use crate::cli::{Running, State, check_light, print};
+use crate::cli::{Drawing, Running, State, check_light, print};
 
 #[derive(Args)]
 pub struct TruthCommand {
     #[command(flatten)]
-    pub state: State,
+    state: State,
+    #[command(flatten)]
+    drawing: Drawing,
     #[command(flatten)]
     output: Output,
 }
@@ -25,7 +27,9 @@ pub struct TruthCommand {
 #[derive(Args)]
 pub struct MeasureCommand {
     #[command(flatten)]
-    pub state: State,
+    state: State,
+    #[command(flatten)]
+    drawing: Drawing,
     #[command(flatten)]
     output: Output,
     /// Measure this visibility picture (255 lit, 0 in shadow) in place of the lab's own
@@ -92,7 +96,7 @@ impl Asked {
 impl TruthCommand {
     pub fn run(&self) -> Result<()> {
         self.output.check(&self.state.lab)?;
-        let running = self.state.start(&[], false)?;
+        let running = self.state.start(&self.drawing, &[], false)?;
         let asked = ask(&running, self.output.light);
         let truth = &asked.truth;
         let edges = truth.edges();
@@ -143,11 +147,11 @@ impl MeasureCommand {
     pub fn run(&self) -> Result<()> {
         self.output.check(&self.state.lab)?;
         let light = self.output.light;
-        let mut running = self.state.start(&[], false)?;
+        let mut running = self.state.start(&self.drawing, &[], false)?;
         let visibility = match &self.reference {
             Some(path) => reference(path, running.size)?,
             None => {
-                running.draw(self.state.frames, Show::Visibility { light })?;
+                running.draw(self.drawing.frames, Show::Visibility { light })?;
                 gl::read_grey(&running.context.gl, running.size)
             }
         };

@@ -11,6 +11,15 @@ use crate::{Error, Result};
 /// What a written PNG says of itself, in text chunks: keyword and text.
 pub type Notes<'a> = &'a [(&'a str, String)];
 
+/// The notes of every picture that a lab has drawn.
+pub fn notes(renderer: &str) -> [(&'static str, String); 2] {
+    let version = env!("CARGO_PKG_VERSION");
+    [
+        ("Software", format!("shadowlab {version}")),
+        ("Renderer", renderer.to_owned()),
+    ]
+}
+
 /// Depths as the driver stores them, 0 at the near plane and 1 at the far plane.
 #[derive(Clone, Debug)]
 pub struct DepthMap {

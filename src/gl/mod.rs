@@ -6,6 +6,7 @@
 
 mod check;
 mod mesh;
+mod overlay;
 mod read;
 mod shader;
 mod texture;
@@ -15,6 +16,7 @@ use glow::HasContext;
 
 pub use check::{check_errors, check_framebuffer};
 pub use mesh::Mesh;
+pub use overlay::{Area, Overlay};
 pub use read::{read_depths, read_float_in_bytes, read_grey, read_rgb};
 pub use shader::{Program, Shaders, Uniform};
 pub use texture::{solid_texture, texture};

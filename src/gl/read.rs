@@ -46,10 +46,15 @@ pub fn read_float_in_bytes(gl: &glow::Context, [x, y]: [u32; 2]) -> f32 {
     f32::from_le_bytes(bytes)
 }
 
-/// The depth texture that is bound to `GL_TEXTURE_2D`, top row first.
-pub fn read_depths(gl: &glow::Context, [width, height]: [u32; 2]) -> DepthMap {
+/// A depth texture, top row first. It stays bound to the texture unit that is active.
+pub fn read_depths(
+    gl: &glow::Context,
+    texture: glow::Texture,
+    [width, height]: [u32; 2],
+) -> DepthMap {
     let mut bytes = vec![0; 4 * width as usize * height as usize];
     unsafe {
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
         gl.get_tex_image(
             glow::TEXTURE_2D,
             0,

@@ -107,8 +107,12 @@ impl Program {
         let students = sources.iter().any(|(_, source)| source.students);
         unsafe {
             let handle = gl.create_program().map_err(Error::gl)?;
+            let refused = |error| {
+                gl.delete_program(handle);
+                error
+            };
             for (kind, source) in &sources {
-                let shader = compile(gl, *kind, source)?;
+                let shader = compile(gl, *kind, source).map_err(refused)?;
                 gl.attach_shader(handle, shader);
                 gl.delete_shader(shader);
             }
@@ -122,17 +126,19 @@ impl Program {
                     .lines()
                     .find(|line| !line.is_empty())
                     .unwrap_or("no message");
-                return Err(Error::gl(format!("{names}: does not link: {message}")));
+                return Err(refused(Error::gl(format!(
+                    "{names}: does not link: {message}"
+                ))));
             }
             let look_up = |name: &&'static str| (*name, gl.get_uniform_location(handle, name));
             let locations: HashMap<_, _> = uniforms.iter().map(look_up).collect();
             let inactive = uniforms.iter().filter(|name| locations[**name].is_none());
             let inactive: Vec<_> = inactive.copied().collect();
             if !inactive.is_empty() && !students {
-                return Err(Error::gl(format!(
+                return Err(refused(Error::gl(format!(
                     "{names}: no active uniform {}, expected it to be declared and used",
                     inactive.join(", ")
-                )));
+                ))));
             }
             if !inactive.is_empty() {
                 eprintln!(
@@ -145,6 +151,10 @@ impl Program {
                 uniforms: locations,
             })
         }
+    }
+
+    pub fn delete(&self, gl: &glow::Context) {
+        unsafe { gl.delete_program(self.handle) };
     }
 
     /// Sets a uniform of this program, which must be in use.
@@ -166,6 +176,7 @@ fn compile(gl: &glow::Context, kind: u32, source: &Source) -> Result<glow::Shade
             return Ok(shader);
         }
         let log = gl.get_shader_info_log(shader);
+        gl.delete_shader(shader);
         let (line, message) = first_message(&log);
         Err(Error::input(
             &source.path,

@@ -1,8 +1,15 @@
-//! Keys, as a person presses them and as `--keys` writes them: `wwa<Left><Left>`.
+//! Keys and movements of the mouse, as a person makes them and as `--keys` writes them: `wwa<Left><Drag:12,-5>`.
 
 use std::fmt;
 
 use crate::{Error, Result, error};
+
+/// What a person does to a lab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    Key(Key),
+    Pointer(Pointer),
+}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
@@ -17,6 +24,21 @@ pub enum Key {
     Tab,
 }
 
+/// What the mouse does over the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pointer {
+    /// A movement with a button held, in pixels of the picture: to the right and down.
+    Drag { button: Button, dx: i32, dy: i32 },
+    /// Steps of the wheel, away from the person.
+    Wheel(i32),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    Left,
+    Right,
+}
+
 /// The keys that `--keys` writes as `<Name>`; `<lt>` is the character `<` itself.
 const NAMED: [(&str, Key); 8] = [
     ("Left", Key::Left),
@@ -29,6 +51,26 @@ const NAMED: [(&str, Key); 8] = [
     ("lt", Key::Char('<')),
 ];
 
+/// The movements of the mouse that `--keys` writes as `<Name:numbers>`, and what each name's numbers are.
+const MOVEMENTS: [(&str, &str); 3] = [
+    ("Drag", "<Drag:12,-5>: right and down, in pixels"),
+    ("RightDrag", "<RightDrag:12,-5>: right and down, in pixels"),
+    ("Wheel", "<Wheel:1>: steps away from the person"),
+];
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Key(key) => key.fmt(f),
+            Self::Pointer(Pointer::Drag { button, dx, dy }) => match button {
+                Button::Left => write!(f, "<Drag:{dx},{dy}>"),
+                Button::Right => write!(f, "<RightDrag:{dx},{dy}>"),
+            },
+            Self::Pointer(Pointer::Wheel(steps)) => write!(f, "<Wheel:{steps}>"),
+        }
+    }
+}
+
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (NAMED.iter().find(|(_, key)| key == self), self) {
@@ -39,13 +81,13 @@ impl fmt::Display for Key {
     }
 }
 
-/// The keys of a `--keys` text, in order.
-pub fn parse_keys(text: &str) -> Result<Vec<Key>> {
-    let mut keys = Vec::new();
+/// What a `--keys` text does, in order.
+pub fn parse_keys(text: &str) -> Result<Vec<Input>> {
+    let mut inputs = Vec::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
         if first != '<' {
-            keys.push(Key::Char(first));
+            inputs.push(Input::Key(Key::Char(first)));
             rest = &rest[first.len_utf8()..];
             continue;
         }
@@ -54,19 +96,49 @@ pub fn parse_keys(text: &str) -> Result<Vec<Key>> {
                 "--keys: \"{rest}\" has no closing \">\", expected <Name>, or <lt> for the key \"<\""
             ))
         })?;
-        let known = NAMED.iter().find(|(known, _)| *known == name);
-        let (_, key) = known.ok_or_else(|| {
-            let names = NAMED.map(|(name, _)| name);
-            let hint = error::did_you_mean(name, names);
-            Error::usage(format!(
-                "--keys: unknown key <{name}>{hint}: expected one of <{}>",
-                names.join(">, <")
-            ))
-        })?;
-        keys.push(*key);
+        inputs.push(match name.split_once(':') {
+            Some((movement, numbers)) => Input::Pointer(parse_movement(movement, numbers)?),
+            None => Input::Key(parse_named(name)?),
+        });
         rest = after;
     }
-    Ok(keys)
+    Ok(inputs)
+}
+
+fn parse_named(name: &str) -> Result<Key> {
+    let known = NAMED.iter().find(|(known, _)| *known == name);
+    let (_, key) = known.ok_or_else(|| {
+        let names = NAMED.map(|(name, _)| name);
+        let hint = error::did_you_mean(name, names);
+        Error::usage(format!(
+            "--keys: unknown key <{name}>{hint}: expected one of <{}>",
+            names.join(">, <")
+        ))
+    })?;
+    Ok(*key)
+}
+
+fn parse_movement(name: &str, numbers: &str) -> Result<Pointer> {
+    let parsed: Option<Vec<i32>> = numbers.split(',').map(|n| n.parse().ok()).collect();
+    let drag = |button, dx, dy| Ok(Pointer::Drag { button, dx, dy });
+    match (name, parsed.as_deref()) {
+        ("Drag", Some(&[dx, dy])) => drag(Button::Left, dx, dy),
+        ("RightDrag", Some(&[dx, dy])) => drag(Button::Right, dx, dy),
+        ("Wheel", Some(&[steps])) => Ok(Pointer::Wheel(steps)),
+        _ => {
+            let known = MOVEMENTS.iter().find(|(known, _)| *known == name);
+            let expected = match known {
+                Some((_, example)) => (*example).to_owned(),
+                None => format!(
+                    "one of {}",
+                    MOVEMENTS.map(|(_, example)| example).join("; ")
+                ),
+            };
+            Err(Error::usage(format!(
+                "--keys: unknown movement <{name}:{numbers}>, expected {expected}"
+            )))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -75,10 +147,10 @@ mod tests {
 
     #[test]
     fn what_is_parsed_is_written_the_same() {
-        let text = "wwa<Left><PageUp>W<lt>é";
+        let text = "wwa<Left><PageUp>W<lt>é<Drag:12,-5><RightDrag:0,7><Wheel:-2>";
         let keys = parse_keys(text).unwrap();
-        assert_eq!(keys.len(), 8);
-        let written: String = keys.iter().map(Key::to_string).collect();
+        assert_eq!(keys.len(), 11);
+        let written: String = keys.iter().map(Input::to_string).collect();
         assert_eq!(written, text);
     }
 
@@ -86,11 +158,15 @@ mod tests {
     fn unknown_and_unclosed_names_are_told() {
         let error = parse_keys("w<Lft>").unwrap_err().to_string();
         assert!(error.contains("<Lft>") && error.contains("Left"), "{error}");
-        assert!(
-            parse_keys("w<Left")
-                .unwrap_err()
-                .to_string()
-                .contains("closing")
-        );
+        for (text, told) in [
+            ("w<Left", "closing"),
+            ("<Drag:1>", "right and down"),
+            ("<Drag:1.5,2>", "right and down"),
+            ("<Wheel:>", "steps"),
+            ("<Swipe:1,2>", "<Wheel:1>"),
+        ] {
+            let error = parse_keys(text).unwrap_err().to_string();
+            assert!(error.contains(told), "{text}: {error}");
+        }
     }
 }

@@ -11,10 +11,9 @@ mod settings;
 use std::path::Path;
 
 pub use explanation::{Explanation, Probe, Step};
-pub use keys::{Key, parse_keys};
+pub use keys::{Button, Input, Key, Pointer, parse_keys};
 pub use settings::{Kind, Setting, Settings};
 
-use crate::picture::DepthMap;
 use crate::scene::Scene;
 use crate::{Error, Result, error};
 
@@ -49,17 +48,33 @@ pub trait Lab {
     /// Whether the lab knows the key.
     fn key(&mut self, key: Key) -> bool;
 
+    /// Whether the lab has a use for what the mouse did.
+    fn pointer(&mut self, pointer: Pointer) -> bool;
+
+    fn input(&mut self, input: Input) -> bool {
+        match input {
+            Input::Key(key) => self.key(key),
+            Input::Pointer(pointer) => self.pointer(pointer),
+        }
+    }
+
     /// The default framebuffer has a new size, in pixels.
     fn resize(&mut self, size: [u32; 2]);
 
     /// Lets time pass, in seconds. There is no other clock.
     fn advance(&mut self, dt: f64);
 
+    /// Whether the picture changes as time passes.
+    fn moves(&self) -> bool;
+
     /// Draws one frame into framebuffer 0.
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()>;
 
+    /// Compiles the shaders again, from their files. After an error the lab draws on with those it had.
+    fn reload(&mut self, gl: &glow::Context) -> Result<()>;
+
     /// The depth map of a light (from 1), as the last frame drew it.
-    fn shadow_map(&self, gl: &glow::Context, light: usize) -> Result<ShadowMap>;
+    fn shadow_texture(&self, light: usize) -> Result<ShadowTexture>;
 
     /// The scene at this moment, with everything that keys and settings have changed, and nothing that still moves:
     /// what the ground truth sees.
@@ -83,9 +98,12 @@ pub enum Show {
     },
 }
 
-/// A depth map, with the planes of the camera that it was drawn from.
-pub struct ShadowMap {
-    pub depths: DepthMap,
+/// A depth texture, with the planes of the camera that it was drawn from.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowTexture {
+    pub texture: glow::Texture,
+    /// In texels.
+    pub size: [u32; 2],
     pub near: f64,
     pub far: f64,
 }

@@ -51,8 +51,8 @@ impl Bench {
     }
 
     pub fn press(&mut self, keys: &str) {
-        for key in parse_keys(keys).unwrap() {
-            assert!(self.lab.key(key), "no key {key}");
+        for input in parse_keys(keys).unwrap() {
+            assert!(self.lab.input(input), "no key {input}");
         }
     }
 

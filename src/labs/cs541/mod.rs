@@ -23,14 +23,16 @@ use std::path::Path;
 use glam::{DMat3, DMat4, DVec3};
 use glow::{HasContext, PixelUnpackData};
 
-use super::{Explanation, Handout, Key, Lab, MapScale, Probe, Settings, ShadowMap, Show};
+use super::{
+    Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
+};
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
 use crate::scene::{
     Beam, Camera, Fov, Light, LightKind, Material, Object, Scene, camera, rotate, shapes,
 };
 use crate::{Error, Result};
-use settings::{EYE_STEP, FOV_STEP, KEYS, LIGHT_STEP, SETTINGS};
+use settings::{DRAG_STEP, EYE_STEP, FOV_STEP, KEYS, LIGHT_STEP, SETTINGS};
 
 pub static HANDOUT: Handout = Handout {
     name: "cs541",
@@ -90,6 +92,8 @@ const SHADOW_TEST: [&str; 6] = [
 const SECOND_PLANE_OFFSET: f64 = 0.05;
 /// The radius of the sphere that shows where the light is, in world units.
 const MARKER_RADIUS: f64 = 0.12;
+/// How far up or down the mouse turns the look, in degrees.
+const STEEPEST: f64 = 89.0;
 
 /// The lab's state, grouped by pass.
 struct Cs541 {
@@ -698,6 +702,16 @@ impl Cs541 {
     }
 }
 
+/// The camera's look after a turn to the left about the up vector and then upwards, in degrees.
+fn turned(camera: &Camera, left: f64, up: f64) -> DVec3 {
+    let look = rotate(left, camera.rup).transform_vector3(camera.look.normalize());
+    let right = look.cross(camera.rup);
+    // Straight up and straight down have no right: the look stops short of them.
+    let elevation = 90.0 - look.angle_between(camera.rup).to_degrees();
+    let up = (elevation + up).clamp(-STEEPEST, STEEPEST) - elevation;
+    rotate(up, right).transform_vector3(look)
+}
+
 // ---- The seam --------------------------------------------------------------------------------------------------------
 
 impl Lab for Cs541 {
@@ -737,6 +751,27 @@ impl Lab for Cs541 {
         true
     }
 
+    #[doc(alias = "mousedrag")]
+    fn pointer(&mut self, pointer: Pointer) -> bool {
+        let camera = &mut self.scene.camera;
+        match pointer {
+            Pointer::Drag {
+                button: Button::Left,
+                dx,
+                dy,
+            } => {
+                camera.look = turned(
+                    camera,
+                    -DRAG_STEP * f64::from(dx),
+                    -DRAG_STEP * f64::from(dy),
+                )
+            }
+            Pointer::Wheel(steps) => camera.fov = camera.fov.widened(-FOV_STEP * f64::from(steps)),
+            _ => return false,
+        }
+        true
+    }
+
     fn resize(&mut self, size: [u32; 2]) {
         self.size = size;
     }
@@ -745,6 +780,15 @@ impl Lab for Cs541 {
         if self.settings.switch("rotation") {
             self.time += dt;
         }
+    }
+
+    fn moves(&self) -> bool {
+        let spins = |object: &Object| {
+            object
+                .spin
+                .is_some_and(|spin| spin.degrees_per_second != 0.0)
+        };
+        self.settings.switch("rotation") && self.scene.objects.iter().any(spins)
     }
 
     #[doc(alias = "draw")]
@@ -770,7 +814,41 @@ impl Lab for Cs541 {
         Ok(())
     }
 
-    fn shadow_map(&self, gl: &glow::Context, _light: usize) -> Result<ShadowMap> {
+    fn reload(&mut self, gl: &glow::Context) -> Result<()> {
+        // All of them or none: a lab never draws with half a reload.
+        let mut programs = Vec::new();
+        for make in [
+            shadow_program,
+            lighting_program,
+            visibility_program,
+            unlit_program,
+        ] {
+            match make(gl, &self.shaders) {
+                Ok(program) => programs.push(program),
+                Err(error) => {
+                    programs.iter().for_each(|program| program.delete(gl));
+                    return Err(error);
+                }
+            }
+        }
+        let kept = [
+            &mut self.first_pass.program,
+            &mut self.second_pass.program,
+            &mut self.second_pass.visibility,
+            &mut self.sky.program,
+        ];
+        for (kept, program) in kept.into_iter().zip(programs) {
+            std::mem::replace(kept, program).delete(gl);
+        }
+        if let Some(explainer) = self.explainer.take() {
+            explainer.delete(gl);
+        }
+        // The map was drawn by the old shaders.
+        self.first_pass.drawn = None;
+        Ok(())
+    }
+
+    fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
         if !self.settings.switch("shadows") {
             return Err(Error::usage(
                 "shadows=off draws no shadow map, expected shadows=on",
@@ -780,14 +858,11 @@ impl Lab for Cs541 {
             depth_texture_buffer,
             kind,
             ..
-        } = &self.first_pass.buffer;
-        unsafe {
-            gl.active_texture(glow::TEXTURE1);
-            gl.bind_texture(glow::TEXTURE_2D, Some(*depth_texture_buffer));
-        }
+        } = self.first_pass.buffer;
         let Light { near, far, .. } = *self.light();
-        Ok(ShadowMap {
-            depths: gl::read_depths(gl, [kind.size; 2]),
+        Ok(ShadowTexture {
+            texture: depth_texture_buffer,
+            size: [kind.size; 2],
             near,
             far,
         })

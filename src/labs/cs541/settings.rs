@@ -6,6 +6,8 @@ use crate::labs::{Kind, Setting};
 pub const EYE_STEP: f64 = 0.25;
 pub const LIGHT_STEP: f64 = 0.25;
 pub const FOV_STEP: f64 = 2.0;
+/// Degrees for one pixel of a drag.
+pub const DRAG_STEP: f64 = 0.25;
 
 pub const KEYS: &[(&str, &str)] = &[
     ("w s a d", "move the eye forward, back, left, right"),
@@ -19,6 +21,8 @@ pub const KEYS: &[(&str, &str)] = &[
         "<Tab>",
         "put the light at the eye, pointing where the eye looks",
     ),
+    ("<Drag:X,Y>", "turn the look (left button)"),
+    ("<Wheel:N>", "narrow, widen the field of view, as o and p"),
 ];
 
 pub const SETTINGS: &[Setting] = &[

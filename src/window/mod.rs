@@ -1,0 +1,76 @@
+//! The desktop viewer: a lab in a window, with its keys, the mouse, and shaders that are read again when saved.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `app` | what happens when: events, frames, time |
+//! | `canvas` | the window with its OpenGL 3.3 core context, by GLX or EGL |
+//! | `keys` | the desktop's keys and mouse as the labs know them, and the viewer's own keys |
+//! | `panels` | what stands over the picture: keys, messages, the depth map |
+//! | `text` | letters into an image |
+//! | `shot` | F12: a file, and the command line that draws it again |
+//! | `watch` | the student's folder of shaders |
+
+#[cfg(target_os = "linux")]
+mod app;
+#[cfg(target_os = "linux")]
+mod canvas;
+#[cfg(target_os = "linux")]
+mod keys;
+#[cfg(target_os = "linux")]
+mod panels;
+#[cfg(target_os = "linux")]
+mod shot;
+#[cfg(target_os = "linux")]
+mod text;
+#[cfg(target_os = "linux")]
+mod watch;
+
+use std::path::PathBuf;
+
+use crate::Result;
+use crate::labs::{Handout, Input, Lab};
+use crate::scene::Scene;
+
+/// What to show, and how.
+pub struct View {
+    pub handout: &'static Handout,
+    pub scene: Scene,
+    /// In logical pixels: a HiDPI screen shows the window as large as any other, with more pixels.
+    pub size: [u32; 2],
+    /// Brings the new lab to the state that the options name.
+    pub prepare: Box<dyn FnOnce(&mut dyn Lab) -> Result<()>>,
+    /// What `prepare` does to the lab, as far as the viewer goes on with it.
+    pub inputs: Vec<Input>,
+    /// In seconds.
+    pub time: f64,
+    /// The other options, for a command line that draws the same picture.
+    pub options: Vec<String>,
+    /// A folder with a student's own shaders.
+    pub glsl: Option<PathBuf>,
+    pub vsync: bool,
+    pub api: Api,
+    /// Draw this many frames without a rest, then end.
+    pub frames: Option<u64>,
+}
+
+/// How the window gets its context.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Api {
+    /// Whatever the desktop has; GLX first.
+    Auto,
+    Glx,
+    Egl,
+}
+
+/// Shows a lab in a window until the person ends it.
+#[cfg(target_os = "linux")]
+pub fn open(view: View) -> Result<()> {
+    app::run(view)
+}
+
+#[cfg(not(target_os = "linux"))]
+pub fn open(_: View) -> Result<()> {
+    Err(crate::Error::gl(
+        "the viewer needs X11 or Wayland and runs on Linux only: expected Linux",
+    ))
+}

@@ -1,0 +1,132 @@
+//! What stands over the picture: the keys, a message, the depth map.
+
+use image::RgbaImage;
+
+use super::keys;
+use super::text::{Letters, wrap};
+use crate::Result;
+use crate::gl::{Area, Overlay};
+use crate::labs::{Handout, Lab};
+
+/// What is to be seen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shown {
+    pub help: bool,
+    /// The light whose depth map is shown, from 1.
+    pub depth_map: Option<usize>,
+    /// What went wrong, until it goes well again.
+    pub message: Option<String>,
+}
+
+/// A sheet's texts, and what else decides how it looks.
+#[derive(PartialEq)]
+struct Sheet {
+    size: [u32; 2],
+    letter_height: u32,
+    blocks: Vec<([u32; 2], Vec<String>)>,
+}
+
+pub struct Panels {
+    overlay: Overlay,
+    /// The sheet that the driver has.
+    sheet: Option<Sheet>,
+}
+
+impl Panels {
+    pub fn new(gl: &glow::Context) -> Result<Self> {
+        Ok(Self {
+            overlay: Overlay::new(gl)?,
+            sheet: None,
+        })
+    }
+
+    /// Draws over the picture that the lab has just drawn.
+    pub fn draw(
+        &mut self,
+        gl: &glow::Context,
+        shown: &Shown,
+        handout: &Handout,
+        lab: &dyn Lab,
+        size: [u32; 2],
+        scale: f64,
+    ) {
+        let letters = Letters::new(scale);
+        let columns = letters.columns(size[0]);
+        let mut blocks = Vec::new();
+
+        // From the top left downwards.
+        let mut top = 0;
+        let mut stack = |lines: Vec<String>| {
+            let [_, height] = letters.block(&lines);
+            blocks.push(([0, top], lines));
+            top += height;
+        };
+        if let Some(message) = &shown.message {
+            stack(wrap(message, columns, 2));
+        }
+        if shown.help {
+            stack(help(handout, columns));
+        }
+
+        // At the bottom right, with its planes below it.
+        if let Some(light) = shown.depth_map {
+            let label;
+            match lab.shadow_texture(light) {
+                Ok(map) => {
+                    label = wrap(
+                        &format!("light {light}: black {}, white {}", map.near, map.far),
+                        columns,
+                        0,
+                    );
+                    let [_, height] = letters.block(&label);
+                    let room = size[0].min(size[1]).saturating_sub(height);
+                    let side = (room * 2 / 5).max(1);
+                    let area = Area {
+                        left: size[0].saturating_sub(side),
+                        bottom: height,
+                        size: [side, side * map.size[1] / map.size[0]],
+                    };
+                    self.overlay
+                        .draw_inset(gl, map.texture, [map.near, map.far], area);
+                }
+                Err(error) => label = wrap(&error.to_string(), columns, 0),
+            }
+            let [width, height] = letters.block(&label);
+            let place = [
+                size[0].saturating_sub(width),
+                size[1].saturating_sub(height),
+            ];
+            blocks.push((place, label));
+        }
+
+        if blocks.is_empty() {
+            return;
+        }
+        let sheet = Sheet {
+            size,
+            letter_height: letters.height,
+            blocks,
+        };
+        if self.sheet.as_ref() != Some(&sheet) {
+            let mut image = RgbaImage::new(size[0], size[1]);
+            for (place, lines) in &sheet.blocks {
+                letters.write(&mut image, *place, lines);
+            }
+            self.overlay.set_sheet(gl, &image);
+            self.sheet = Some(sheet);
+        }
+        self.overlay.draw_sheet(gl);
+    }
+}
+
+/// The lab's keys and the viewer's own.
+fn help(handout: &Handout, columns: usize) -> Vec<String> {
+    let all = || handout.keys.iter().chain(&keys::OWN);
+    let widest = all().map(|(keys, _)| keys.chars().count()).max();
+    let column = widest.unwrap_or(0) + 2;
+    let mut lines = Vec::new();
+    for (keys, help) in all() {
+        lines.extend(wrap(&format!("{keys:column$}{help}"), columns, column));
+    }
+    lines
+}
