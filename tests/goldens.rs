@@ -7,16 +7,10 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{Bench, work_folder};
+use common::{Bench, SHARE_BEYOND, compare, work_folder};
 use image::DynamicImage;
 
-/// What a golden forgives, per channel: llvmpipe compiles for the processor it runs on, and where that one has other
-/// instructions a colour may be rounded the other way.
-const LEVELS: u8 = 2;
-/// The share of pixels that may differ by more: those of triangles' and shadows' edges, which the same rounding can
-/// move. Measured with SSE4.1 alone against AVX-512: at most 0.012 %.
-const SHARE_BEYOND: f64 = 0.0005;
-/// The same for acne of 16-bit depths, whose every dot hangs on how a depth was rounded. Measured: 0.21 %.
+/// The same as [`SHARE_BEYOND`] for acne of 16-bit depths, whose every dot hangs on how a depth was rounded. Measured: 0.21 %.
 const SHARE_OF_DOTS: f64 = 0.004;
 
 struct Case {
@@ -96,33 +90,6 @@ impl Case {
         let told = String::from_utf8_lossy(&ran.stderr);
         assert!(ran.status.success(), "{}: {told}", self.name);
     }
-}
-
-/// What is wrong with a picture, in a line.
-fn compare(golden: &DynamicImage, drawn: &DynamicImage, share_beyond: f64) -> Result<(), String> {
-    if golden.color() != drawn.color() {
-        return Err(format!(
-            "{:?}, expected {:?}",
-            drawn.color(),
-            golden.color()
-        ));
-    }
-    let (golden, drawn) = (golden.to_rgb8(), drawn.to_rgb8());
-    if golden.dimensions() != drawn.dimensions() {
-        let (found, expected) = (drawn.dimensions(), golden.dimensions());
-        return Err(format!("{found:?} pixels, expected {expected:?}"));
-    }
-    let pairs = golden.pixels().zip(drawn.pixels());
-    let beyond = pairs
-        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > LEVELS))
-        .count();
-    let share = beyond as f64 / f64::from(golden.width() * golden.height());
-    if share > share_beyond {
-        return Err(format!(
-            "{beyond} pixels differ by more than {LEVELS} levels"
-        ));
-    }
-    Ok(())
 }
 
 /// Draws all cases and returns a line for each that is not as its golden.

@@ -23,9 +23,17 @@ struct Room {
 const ROOMS: &[Room] = &[
     Room {
         name: "main",
-        imports: &["headless", "labs", "gl", "scene", "picture", "error"],
+        imports: &[
+            "headless", "window", "labs", "gl", "scene", "picture", "error",
+        ],
         crates: &[],
         may_be_unsafe: false,
+    },
+    Room {
+        name: "window",
+        imports: &["labs", "gl", "scene", "picture", "error"],
+        crates: &["glow", "glutin", "glutin_winit", "winit"],
+        may_be_unsafe: true,
     },
     Room {
         name: "headless",
@@ -69,7 +77,7 @@ const ROOMS: &[Room] = &[
 const PROGRAM: &[&str] = &["cli", "timings"];
 
 /// The crates that only some rooms may name: the driver's calls, its contexts, and windows.
-const FENCED: &[&str] = &["glow", "glutin", "winit"];
+const FENCED: &[&str] = &["glow", "glutin", "glutin_winit", "winit"];
 
 /// The files beside the labs that all labs share. Every other file or folder in `src/labs` is a lab.
 const SEAM: &[&str] = &["mod", "settings", "keys", "explanation"];
@@ -385,6 +393,9 @@ fn an_import_upward_is_reported() {
             "mod tests { } use super::super::labs::Show;",
         ),
         ("src/labs/made_up.rs", "let c = crate::headless::open()?;"),
+        ("src/labs/made_up.rs", "use crate::window::View;"),
+        ("src/headless.rs", "use crate::window::View;"),
+        ("src/window/app.rs", "use crate::headless::Headless;"),
         ("src/scene/mod.rs", "use crate::gl::mesh as upload;"),
         ("src/picture.rs", "use crate::scene::{self};"),
         ("src/error.rs", "use crate::picture::DepthMap;"),
@@ -433,6 +444,8 @@ fn a_room_that_names_a_fenced_crate_is_reported() {
         ("src/picture.rs", "fn read(gl: &glow::Context) {}"),
         ("src/gl/mod.rs", "use glutin::display::Display;"),
         ("src/headless.rs", "use winit::event_loop::EventLoop;"),
+        ("src/headless.rs", "glutin_winit::finalize_window();"),
+        ("src/labs/mod.rs", "fn key(key: winit::keyboard::Key) {}"),
         ("src/cli.rs", "fn draw(gl: &glow::Context) {}"),
         (
             "src/main.rs",
@@ -507,6 +520,10 @@ fn what_the_house_allows_is_not_reported() {
         (
             "src/gl/mesh.rs",
             "pub(crate) fn f() {} mod tests { use super::*; }",
+        ),
+        (
+            "src/window/canvas.rs",
+            "use super::View; use crate::labs::Show; use winit::window::Window;",
         ),
         (
             "src/scene/mod.rs",

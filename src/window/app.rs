@@ -122,6 +122,10 @@ struct Viewer {
     canvas: Canvas,
     handout: &'static Handout,
     _watcher: Option<RecommendedWatcher>,
+    /// In pixels, as the desktop last told it.
+    size: [u32; 2],
+    /// Nothing of the window is to be seen.
+    hidden: bool,
 
     /// What stands over the picture.
     shown: Shown,
@@ -176,7 +180,8 @@ impl Viewer {
         let panels = Panels::new(&canvas.gl)?;
         let glsl = view.glsl.as_deref();
         let mut lab = (view.handout.start)(&canvas.gl, view.scene, glsl)?;
-        if let Some(size) = canvas.size() {
+        let size = canvas.size();
+        if !size.contains(&0) {
             lab.resize(size);
         }
         (view.prepare)(lab.as_mut())?;
@@ -196,6 +201,8 @@ impl Viewer {
             canvas,
             handout: view.handout,
             _watcher: watcher,
+            size,
+            hidden: false,
             shown: Shown::default(),
             shot: false,
             reload_at: None,
@@ -218,7 +225,11 @@ impl Viewer {
         match event {
             WindowEvent::CloseRequested => return Ok(Next::End),
             WindowEvent::RedrawRequested => return self.draw(),
-            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.resize(),
+            WindowEvent::Resized(size) => self.resize([size.width, size.height]),
+            WindowEvent::Occluded(hidden) => {
+                self.hidden = hidden;
+                self.canvas.window.request_redraw();
+            }
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::KeyboardInput {
                 event,
@@ -326,7 +337,7 @@ impl Viewer {
             self.reload_at = None;
             self.reload();
         }
-        if self.canvas.size().is_none() || !(self.moves() || self.most_frames.is_some()) {
+        if !self.is_visible() || !(self.moves() || self.most_frames.is_some()) {
             self.last_frame = None;
             self.next_frame = None;
         } else if self.next_frame.is_none_or(|at| at <= now) {
@@ -343,12 +354,18 @@ impl Viewer {
         }
     }
 
-    fn resize(&mut self) {
-        if let Some(size) = self.canvas.size() {
+    fn resize(&mut self, size: [u32; 2]) {
+        // A minimised window may have no pixels: the lab keeps the size that it had.
+        self.size = size;
+        if self.is_visible() {
             self.canvas.resize(size);
             self.lab.resize(size);
             self.canvas.window.request_redraw();
         }
+    }
+
+    fn is_visible(&self) -> bool {
+        !self.size.contains(&0) && !self.hidden
     }
 
     fn reload(&mut self) {
@@ -358,10 +375,9 @@ impl Viewer {
     }
 
     fn draw(&mut self) -> Result<Next> {
-        // A minimised window has nothing to draw on.
-        let Some(size) = self.canvas.size() else {
+        if !self.is_visible() {
             return Ok(Next::GoOn);
-        };
+        }
         self.drag();
         let began = Instant::now();
         if self.moves() {
@@ -377,14 +393,14 @@ impl Viewer {
         self.title.frames += 1;
         self.title.drawing += began.elapsed();
         if std::mem::take(&mut self.shot)
-            && let Err(error) = self.shoot(size)
+            && let Err(error) = self.shoot()
         {
             self.shown.message = Some(error.to_string());
         }
         let scale = self.canvas.window.scale_factor();
         let (gl, lab) = (&self.canvas.gl, self.lab.as_ref());
         self.panels
-            .draw(gl, &self.shown, self.handout, lab, size, scale);
+            .draw(gl, &self.shown, self.handout, lab, self.size, scale);
         self.canvas.show()?;
         self.write_title();
 
@@ -431,13 +447,13 @@ impl Viewer {
     }
 
     /// The lab's picture as it stands in the back buffer, before anything is drawn over it.
-    fn shoot(&self, size: [u32; 2]) -> Result<()> {
-        let pixels = gl::read_rgb(&self.canvas.gl, size);
+    fn shoot(&self) -> Result<()> {
+        let pixels = gl::read_rgb(&self.canvas.gl, self.size);
         let name = shot::free_name(self.handout.name);
         picture::write_rgb(&name, &pixels, &picture::notes(&self.canvas.renderer))?;
         let line = shot::command_line(&shot::State {
             lab: self.handout.name,
-            size,
+            size: self.size,
             options: &self.options,
             inputs: &self.inputs,
             time: self.time,

@@ -92,10 +92,9 @@ impl Canvas {
         }
     }
 
-    /// The window's size in pixels; None while there is nothing to draw on.
-    pub fn size(&self) -> Option<[u32; 2]> {
-        let PhysicalSize { width, height } = self.window.inner_size();
-        (width > 0 && height > 0).then_some([width, height])
+    /// The window's size in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.window.inner_size().into()
     }
 
     pub fn resize(&self, size: [u32; 2]) {

@@ -3,7 +3,7 @@
 use image::RgbaImage;
 
 use super::keys;
-use super::text::{Letters, wrap};
+use super::text::{Ground, Letters, wrap};
 use crate::Result;
 use crate::gl::{Area, Overlay};
 use crate::labs::{Handout, Lab};
@@ -18,12 +18,20 @@ pub struct Shown {
     pub message: Option<String>,
 }
 
+#[derive(PartialEq)]
+struct Block {
+    /// Its top left corner.
+    place: [u32; 2],
+    lines: Vec<String>,
+    ground: Ground,
+}
+
 /// A sheet's texts, and what else decides how it looks.
 #[derive(PartialEq)]
 struct Sheet {
     size: [u32; 2],
     letter_height: u32,
-    blocks: Vec<([u32; 2], Vec<String>)>,
+    blocks: Vec<Block>,
 }
 
 pub struct Panels {
@@ -56,47 +64,25 @@ impl Panels {
 
         // From the top left downwards.
         let mut top = 0;
-        let mut stack = |lines: Vec<String>| {
+        let mut stack = |lines: Vec<String>, ground| {
             let [_, height] = letters.block(&lines);
-            blocks.push(([0, top], lines));
+            let place = [0, top];
+            blocks.push(Block {
+                place,
+                lines,
+                ground,
+            });
             top += height;
         };
         if let Some(message) = &shown.message {
-            stack(wrap(message, columns, 2));
+            stack(wrap(message, columns, 2), Ground::Wrong);
         }
         if shown.help {
-            stack(help(handout, columns));
+            stack(help(handout, columns), Ground::Plain);
         }
 
-        // At the bottom right, with its planes below it.
         if let Some(light) = shown.depth_map {
-            let label;
-            match lab.shadow_texture(light) {
-                Ok(map) => {
-                    label = wrap(
-                        &format!("light {light}: black {}, white {}", map.near, map.far),
-                        columns,
-                        0,
-                    );
-                    let [_, height] = letters.block(&label);
-                    let room = size[0].min(size[1]).saturating_sub(height);
-                    let side = (room * 2 / 5).max(1);
-                    let area = Area {
-                        left: size[0].saturating_sub(side),
-                        bottom: height,
-                        size: [side, side * map.size[1] / map.size[0]],
-                    };
-                    self.overlay
-                        .draw_inset(gl, map.texture, [map.near, map.far], area);
-                }
-                Err(error) => label = wrap(&error.to_string(), columns, 0),
-            }
-            let [width, height] = letters.block(&label);
-            let place = [
-                size[0].saturating_sub(width),
-                size[1].saturating_sub(height),
-            ];
-            blocks.push((place, label));
+            blocks.push(self.draw_inset(gl, lab, light, size, letters));
         }
 
         if blocks.is_empty() {
@@ -109,13 +95,52 @@ impl Panels {
         };
         if self.sheet.as_ref() != Some(&sheet) {
             let mut image = RgbaImage::new(size[0], size[1]);
-            for (place, lines) in &sheet.blocks {
-                letters.write(&mut image, *place, lines);
+            for block in &sheet.blocks {
+                letters.write(&mut image, block.place, &block.lines, block.ground);
             }
             self.overlay.set_sheet(gl, &image);
             self.sheet = Some(sheet);
         }
         self.overlay.draw_sheet(gl);
+    }
+
+    /// Draws the light's depth map at the bottom right; returns what is to be written below it.
+    fn draw_inset(
+        &self,
+        gl: &glow::Context,
+        lab: &dyn Lab,
+        light: usize,
+        size: [u32; 2],
+        letters: Letters,
+    ) -> Block {
+        let map = lab.shadow_texture(light);
+        let text = match &map {
+            Ok(map) => format!(
+                "light {light}: near {} (black), far {} (white)",
+                map.near, map.far
+            ),
+            Err(error) => error.to_string(),
+        };
+        let lines = wrap(&text, letters.columns(size[0]), 0);
+        let [width, height] = letters.block(&lines);
+        if let Ok(map) = map {
+            let side = size[0].min(size[1].saturating_sub(height)) / 3;
+            let area = Area {
+                left: size[0] - side,
+                bottom: height,
+                size: [side, side * map.size[1] / map.size[0]],
+            };
+            self.overlay
+                .draw_inset(gl, map.texture, [map.near, map.far], area);
+        }
+        Block {
+            place: [
+                size[0].saturating_sub(width),
+                size[1].saturating_sub(height),
+            ],
+            lines,
+            ground: Ground::Plain,
+        }
     }
 }
 

@@ -3,7 +3,22 @@
 use image::{Rgba, RgbaImage};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
-const GROUND: Rgba<u8> = Rgba([12, 14, 20, 205]);
+/// What a block stands on: dark and translucent, and red where something went wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ground {
+    Plain,
+    Wrong,
+}
+
+impl Ground {
+    fn colour(self) -> Rgba<u8> {
+        match self {
+            Self::Plain => Rgba([12, 14, 20, 205]),
+            Self::Wrong => Rgba([96, 10, 16, 230]),
+        }
+    }
+}
+
 const INK: [u8; 3] = [240, 240, 235];
 
 /// The letters of an ordinary screen, or those of a HiDPI one, where an ordinary letter would be too small to read.
@@ -50,13 +65,13 @@ impl Letters {
     }
 
     /// Writes a block whose top left corner is at `place`; what does not fit into the image is left out.
-    pub fn write(&self, image: &mut RgbaImage, place: [u32; 2], lines: &[String]) {
+    pub fn write(&self, image: &mut RgbaImage, place: [u32; 2], lines: &[String], ground: Ground) {
         let [width, height] = self.block(lines);
         let right = (place[0] + width).min(image.width());
         let bottom = (place[1] + height).min(image.height());
         for y in place[1]..bottom {
             for x in place[0]..right {
-                image.put_pixel(x, y, GROUND);
+                image.put_pixel(x, y, ground.colour());
             }
         }
         for (row, line) in lines.iter().enumerate() {
@@ -89,19 +104,30 @@ impl Letters {
 }
 
 /// Breaks a text between words into lines of at most `columns` letters; all but the first are indented.
+/// A word that is longer than a line is broken where the line ends.
 pub fn wrap(text: &str, columns: usize, indent: usize) -> Vec<String> {
+    let columns = columns.max(1);
     let indent = " ".repeat(indent.min(columns / 2));
     let mut lines = Vec::new();
-    let mut line = String::new();
+    let mut line: Vec<char> = Vec::new();
+    let mut empty = 0;
     for word in text.split_inclusive(' ') {
-        if !line.trim().is_empty() && (line.clone() + word.trim_end()).chars().count() > columns {
-            lines.push(line.trim_end().to_owned());
-            line = indent.clone();
+        let mut word: Vec<char> = word.chars().collect();
+        let letters = word.iter().filter(|c| **c != ' ').count();
+        while line.len() + letters.min(word.len()) > columns {
+            if line.len() <= empty {
+                let rest = word.split_off(columns - line.len());
+                line.append(&mut std::mem::replace(&mut word, rest));
+            }
+            lines.push(line);
+            line = indent.chars().collect();
+            empty = line.len();
         }
-        line += word;
+        line.extend(word);
     }
-    lines.push(line.trim_end().to_owned());
-    lines
+    lines.push(line);
+    let text = |line: Vec<char>| line.iter().collect::<String>().trim_end().to_owned();
+    lines.into_iter().map(text).collect()
 }
 
 #[cfg(test)]
@@ -112,7 +138,8 @@ mod tests {
     fn long_lines_are_broken_between_words() {
         assert_eq!(wrap("one two three", 8, 2), ["one two", "  three"]);
         assert_eq!(wrap("one two", 80, 2), ["one two"]);
-        assert_eq!(wrap("verylongword", 4, 2), ["verylongword"]);
+        assert_eq!(wrap("verylongword", 4, 1), ["very", " lon", " gwo", " rd"]);
+        assert_eq!(wrap("a", 0, 2), ["a"]);
     }
 
     #[test]
@@ -120,8 +147,16 @@ mod tests {
         for scale in [1.0, 2.0] {
             let letters = Letters::new(scale);
             let mut image = RgbaImage::new(40, 40);
-            letters.write(&mut image, [0, 0], &["×ä?\u{1F980}W".repeat(20)]);
-            assert!(image.pixels().any(|pixel| pixel.0[..3] == INK));
+            letters.write(
+                &mut image,
+                [0, 0],
+                &["×ä?\u{1F980}W".repeat(20)],
+                Ground::Plain,
+            );
+            assert!(
+                image.pixels().any(|pixel| pixel.0[0] > 200),
+                "scale {scale}"
+            );
         }
     }
 }

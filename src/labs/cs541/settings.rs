@@ -21,8 +21,8 @@ pub const KEYS: &[(&str, &str)] = &[
         "<Tab>",
         "put the light at the eye, pointing where the eye looks",
     ),
-    ("<Drag:X,Y>", "turn the look (left button)"),
-    ("<Wheel:N>", "narrow, widen the field of view, as o and p"),
+    ("<Drag:12,-5>", "turn the look (left button, in pixels)"),
+    ("<Wheel:1> <Wheel:-1>", "narrow, widen the field of view"),
 ];
 
 pub const SETTINGS: &[Setting] = &[

@@ -1,0 +1,270 @@
+//! The viewer in a real window: what it shows, what keys and mouse do, and how it ends.
+
+mod common;
+mod desktop;
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+use common::{SHARE_BEYOND, compare, work_folder};
+use desktop::{Desktop, Viewer};
+use image::{DynamicImage, RgbImage};
+
+/// The picture that a command line of the viewer's draws without a display.
+fn headless(folder: &Path, line: &str) -> DynamicImage {
+    let program = Path::new(env!("CARGO_BIN_EXE_shadowlab"));
+    let file = folder.join("headless.png");
+    let path = std::env::var("PATH").unwrap();
+    let ran = Command::new("sh")
+        .arg("-c")
+        .arg(format!("{line} --device software --output headless.png"))
+        .current_dir(folder)
+        .env(
+            "PATH",
+            format!("{}:{path}", program.parent().unwrap().display()),
+        )
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{line}: {told}");
+    image::open(file).unwrap()
+}
+
+/// A screenshot of the viewer's, and what its own command line draws headless, are one picture.
+fn assert_shot_is_headless(folder: &Path, viewer: &Viewer) -> (RgbImage, String) {
+    let (file, line) = viewer.shoot();
+    let shot = image::open(&file).unwrap();
+    assert_eq!(
+        compare(&headless(folder, &line), &shot, SHARE_BEYOND),
+        Ok(()),
+        "{line}"
+    );
+    (shot.to_rgb8(), line)
+}
+
+fn is_same(expected: &DynamicImage, screen: &RgbImage) -> bool {
+    compare(expected, &screen.clone().into(), SHARE_BEYOND).is_ok()
+}
+
+fn keys_and_sizes(api: &str) {
+    let folder = work_folder(&format!("window-{api}"));
+    let desktop = Desktop::new(&folder);
+    let mut viewer = Viewer::open(&desktop, &format!("--size 320x300 --api {api} --keys d"));
+
+    viewer.press("w w Left Page_Up o e");
+    desktop.xdotool(&["mousemove", "100", "100", "mousedown", "1"]);
+    desktop.xdotool(&["mousemove", "130", "90", "mouseup", "1"]);
+    let (shot, line) = assert_shot_is_headless(&folder, &viewer);
+    assert_eq!(shot.dimensions(), (320, 300));
+    assert!(line.contains("--keys 'dww<Left><PageUp>oe<Drag:"), "{line}");
+    assert!(line.contains(" --time "), "{line}");
+
+    // The controls: one key less, one pixel of the mouse less, another time.
+    let shot = DynamicImage::from(shot);
+    for (from, to) in [
+        ("dww", "dw"),
+        ("<Drag:", "<Drag:-"),
+        ("--time ", "--time 1"),
+    ] {
+        let other = headless(&folder, &line.replace(from, to));
+        assert!(
+            compare(&shot, &other, SHARE_BEYOND).is_err(),
+            "{from} -> {to}"
+        );
+    }
+
+    // What stands over the picture does not come into it, and another size is another picture.
+    viewer.press("question m");
+    assert_shot_is_headless(&folder, &viewer);
+    viewer.window("windowsize", &["401", "257"]);
+    desktop.wait_for_screen([401, 257], |screen| screen.get_pixel(400, 256).0 != [0; 3]);
+    let (shot, line) = assert_shot_is_headless(&folder, &viewer);
+    assert_eq!(shot.dimensions(), (401, 257));
+    assert!(line.contains("--size 401x257"), "{line}");
+
+    // A window as small as it gets, and one that is put away.
+    viewer.window("windowsize", &["1", "1"]);
+    viewer.window("windowunmap", &[]);
+    viewer.window("windowmap", &[]);
+    viewer.window("windowsize", &["200", "150"]);
+    desktop.xdotool(&["mousemove", "50", "50"]);
+    viewer.window("windowfocus", &[]);
+    assert_shot_is_headless(&folder, &viewer);
+
+    viewer.press("Escape");
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn the_window_draws_what_the_headless_command_draws_by_glx() {
+    keys_and_sizes("glx");
+}
+
+#[test]
+fn the_window_draws_what_the_headless_command_draws_by_egl() {
+    keys_and_sizes("egl");
+}
+
+#[test]
+fn a_person_sees_the_picture_the_keys_and_the_depth_map() {
+    let folder = work_folder("window-panels");
+    let desktop = Desktop::new(&folder);
+    let size = [500, 500];
+    let viewer = Viewer::open(&desktop, "--set rotation=off");
+    let plain = headless(&folder, "shadowlab screenshot cs541 --set rotation=off");
+    let is_plain = |screen: &RgbImage| is_same(&plain, screen);
+    assert!(is_plain(&desktop.wait_for_screen(size, is_plain)));
+
+    // The depth map is grey; the help is not, where the picture is not.
+    let inset = |screen: &RgbImage| {
+        let [x, y] = [size[0] - 70, size[1] - 100];
+        let [r, g, b] = screen.get_pixel(x, y).0;
+        r == g && g == b && !is_plain(screen)
+    };
+    let other = |screen: &RgbImage| !is_plain(screen);
+    for (key, seen) in [
+        ("question", &other as &dyn Fn(&RgbImage) -> bool),
+        ("m", &inset),
+    ] {
+        viewer.press(key);
+        assert!(seen(&desktop.wait_for_screen(size, seen)), "{key}");
+        viewer.press(key);
+        assert!(
+            is_plain(&desktop.wait_for_screen(size, is_plain)),
+            "{key} again"
+        );
+    }
+
+    let title = viewer.title();
+    assert!(
+        title.starts_with("cs541, ") && title.contains(" ms a frame, "),
+        "{title}"
+    );
+    assert!(title.contains("llvmpipe"), "{title}");
+}
+
+#[test]
+fn a_saved_shader_is_seen_and_a_broken_one_is_told() {
+    let folder = work_folder("window-glsl");
+    let glsl = folder.join("mine");
+    std::fs::create_dir(&glsl).unwrap();
+    let good = std::fs::read_to_string("glsl/cs541/lighting.frag").unwrap();
+    let dark = good.replace(
+        "void main()\n{",
+        "void main()\n{\n    gl_FragDepth = gl_FragCoord.z;",
+    );
+    assert_ne!(dark, good);
+    let red = good.replacen(
+        "frag_color = ",
+        "frag_color = vec4(1.0, 0.0, 0.0, 0.0) + ",
+        1,
+    );
+    assert_ne!(red, good);
+    let file = glsl.join("lighting.frag");
+    std::fs::write(&file, &good).unwrap();
+
+    let desktop = Desktop::new(&folder);
+    let size = [300, 300];
+    let line = "shadowlab screenshot cs541 --set rotation=off --size 300x300 --glsl mine";
+    let mut viewer = Viewer::open(&desktop, "--set rotation=off --size 300x300 --glsl mine");
+    let before = headless(&folder, line);
+    let is_before = |screen: &RgbImage| is_same(&before, screen);
+    assert!(is_before(&desktop.wait_for_screen(size, is_before)));
+
+    // In place, as `cat` writes.
+    std::fs::write(&file, &red).unwrap();
+    let reddened = headless(&folder, line);
+    let is_red = |screen: &RgbImage| is_same(&reddened, screen);
+    assert!(is_red(&desktop.wait_for_screen(size, is_red)));
+    assert!(
+        !is_red(&before.to_rgb8()),
+        "the control: red is another picture"
+    );
+
+    // By another name first, as many editors write. The message stands on red over the last good picture.
+    let broken = glsl.join("lighting.frag.new");
+    std::fs::write(&broken, good.replace("void main", "void mian")).unwrap();
+    std::fs::rename(&broken, &file).unwrap();
+    let told = |screen: &RgbImage| {
+        let [r, g, b] = screen.get_pixel(2, 2).0;
+        !is_red(screen) && r > 60 && g < 60 && b < 60
+    };
+    let screen = desktop.wait_for_screen(size, told);
+    assert!(told(&screen));
+    let lower_half =
+        |picture: &RgbImage| DynamicImage::from(picture.clone()).crop_imm(0, 150, 300, 150);
+    let kept = lower_half(&reddened.to_rgb8());
+    assert_eq!(compare(&kept, &lower_half(&screen), SHARE_BEYOND), Ok(()));
+    viewer.press("x x");
+
+    std::fs::write(&file, &good).unwrap();
+    assert!(is_before(&desktop.wait_for_screen(size, is_before)));
+    viewer.press("Escape");
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn at_rest_the_program_sleeps() {
+    let folder = work_folder("window-rest");
+    let desktop = Desktop::new(&folder);
+    let used = |options: &str, keys: &str| {
+        let viewer = Viewer::open(&desktop, options);
+        viewer.press(keys);
+        // What the key itself asks for is drawn by then.
+        viewer.shoot();
+        let before = viewer.cpu_time();
+        std::thread::sleep(Duration::from_secs(2));
+        viewer.cpu_time() - before
+    };
+    let most = Duration::from_millis(20);
+    let resting = used("--set rotation=off --size 200x200", "w");
+    assert!(resting <= most, "{resting:?} with rotation=off");
+    let paused = used("--size 200x200", "space");
+    assert!(paused <= most, "{paused:?} paused");
+    // The control: what moves is drawn.
+    let moving = used("--size 200x200", "w");
+    assert!(moving > 2 * most, "{moving:?} moving");
+}
+
+#[test]
+fn a_window_that_is_closed_ends_well() {
+    let folder = work_folder("window-closed");
+    let desktop = Desktop::new(&folder);
+    let mut viewer = Viewer::open(&desktop, "--size 100x100 --api glx");
+    viewer.window("windowquit", &[]);
+    assert_eq!(viewer.end().code(), Some(0));
+    let mut viewer = Viewer::open(&desktop, "--size 100x100 --api egl");
+    viewer.window("windowquit", &[]);
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn so_many_frames_and_no_more() {
+    let folder = work_folder("window-frames");
+    let desktop = Desktop::new(&folder);
+    let options = "--size 32x32 --set rotation=off --set map_size=256 --vsync off --frames 2000";
+    let mut viewer = Viewer::open(&desktop, options);
+    assert_eq!(viewer.line(), "1000 frames");
+    assert_eq!(viewer.line(), "2000 frames");
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
+#[test]
+fn without_a_display_the_other_command_is_named() {
+    for display in [None, Some(":99999")] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_shadowlab"));
+        command.args(["view", "cs541"]);
+        for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+            command.env_remove(name);
+        }
+        if let Some(display) = display {
+            command.env("DISPLAY", display);
+        }
+        let ran = command.output().unwrap();
+        let told = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(1), "{told}");
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(told.contains("`shadowlab screenshot cs541`"), "{told}");
+    }
+}
