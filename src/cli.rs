@@ -9,6 +9,7 @@ use glam::DVec3;
 use shadowlab::gl::{self, trace};
 use shadowlab::headless::{self, Choice, Headless};
 use shadowlab::labs::{self, Handout, Lab, Probe, Show, parse_keys};
+use shadowlab::scene::{self, Scene};
 use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, picture};
 
@@ -55,7 +56,13 @@ enum Command {
 pub struct State {
     /// The lab's name, as `shadowlab labs` lists it
     pub lab: String,
-    /// Size of the picture in pixels [default: the course's window]
+    /// Draw the scene of this file in place of the lab's own
+    #[arg(long, value_name = "FILE.toml")]
+    scene: Option<PathBuf>,
+    /// Let the scene name files outside of its folder
+    #[arg(long, requires = "scene")]
+    allow_outside: bool,
+    /// Size of the picture in pixels [default: the scene's, or the course's window]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
     /// Give a setting another value; may be repeated
@@ -210,11 +217,14 @@ impl State {
         let mut timings = Timings::new();
         let handout = labs::find(&self.lab)?;
         parse_keys(&self.keys)?;
-        let size = self.size.unwrap_or(handout.size);
+        // A scene file says the size that the context must have, so it goes first.
+        let students_scene = self.students_scene()?;
+        let scene_size = students_scene.as_ref().and_then(|scene| scene.size);
+        let size = self.size.or(scene_size).unwrap_or(handout.size);
 
-        // The driver's start and the scene's files have nothing to do with each other, so they go side by side.
+        // The driver's start and the lab's own scene have nothing to do with each other, so they go side by side.
         let (context, scene) = std::thread::scope(|scope| {
-            let scene = scope.spawn(|| (handout.scene)());
+            let scene = scope.spawn(move || students_scene.map_or_else(handout.scene, Ok));
             let context = Headless::open(&drawing.device, size, record);
             (
                 context,
@@ -224,7 +234,8 @@ impl State {
         let (context, scene) = (context?, scene?);
         timings.lap("EGL, context, scene");
 
-        let mut lab = (handout.start)(&context.gl, scene, self.glsl.as_deref())?;
+        let mut lab = (handout.start)(&context.gl, scene, self.glsl.as_deref())
+            .map_err(|error| self.about_scene(error))?;
         lab.resize(size);
         for assignment in first {
             lab.settings().set(assignment)?;
@@ -243,6 +254,12 @@ impl State {
     /// The options but for size, keys and time, as another command line would repeat them.
     fn options(&self) -> Vec<String> {
         let mut options = Vec::new();
+        if let Some(path) = &self.scene {
+            options.extend(["--scene".to_owned(), path.display().to_string()]);
+        }
+        if self.allow_outside {
+            options.push("--allow-outside".to_owned());
+        }
         for assignment in &self.set {
             options.extend(["--set".to_owned(), assignment.clone()]);
         }
@@ -274,6 +291,19 @@ impl State {
         lab.advance(self.time);
         Ok(())
     }
+
+    fn students_scene(&self) -> Result<Option<Scene>> {
+        let load = |path| scene::file::load(path, self.allow_outside);
+        self.scene.as_deref().map(load).transpose()
+    }
+
+    /// A scene that a lab has no use for is wrong in its file, not on the command line.
+    fn about_scene(&self, error: Error) -> Error {
+        match (&self.scene, error) {
+            (Some(path), Error::Usage(message)) => Error::input(path, None, message),
+            (_, error) => error,
+        }
+    }
 }
 
 impl Running {
@@ -295,7 +325,7 @@ impl ViewOptions {
         let state = self.state;
         let handout = labs::find(&state.lab)?;
         let inputs = parse_keys(&state.keys)?;
-        let scene = (handout.scene)()?;
+        let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
         window::open(View {
             handout,
             size: state.size.or(scene.size).unwrap_or(handout.size),

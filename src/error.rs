@@ -9,10 +9,11 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// The command line asks for something that does not exist: exit code 2.
     Usage(String),
-    /// A file that was read is not what it should be. `line` counts from 1.
+    /// A file that was read is not what it should be. Line and column count from 1, the column in characters.
     Input {
         path: PathBuf,
         line: Option<usize>,
+        column: Option<usize>,
         message: String,
     },
     /// A file could not be read or written.
@@ -58,8 +59,28 @@ impl Error {
         Self::Input {
             path: path.into(),
             line: line.into(),
+            column: None,
             message: message.into(),
         }
+    }
+
+    /// Wrong input at a line and a column.
+    pub fn input_at(
+        path: impl Into<PathBuf>,
+        [line, column]: [usize; 2],
+        message: impl Into<String>,
+    ) -> Self {
+        Self::Input {
+            path: path.into(),
+            line: Some(line),
+            column: Some(column),
+            message: message.into(),
+        }
+    }
+
+    /// Whether a file could not be read because there is none of that name.
+    pub fn is_missing(&self) -> bool {
+        matches!(self, Self::File { cause, .. } if cause.kind() == std::io::ErrorKind::NotFound)
     }
 
     /// 2 for a wrong command line, 1 for everything else.
@@ -77,20 +98,51 @@ impl fmt::Display for Error {
             Self::Usage(message) | Self::Gl(message) => message.clone(),
             Self::Input {
                 path,
-                line: Some(line),
+                line,
+                column,
                 message,
-            } => format!("{}:{line}: {message}", path.display()),
-            Self::Input {
-                path,
-                line: None,
-                message,
-            } => format!("{}: {message}", path.display()),
+            } => {
+                let numbers = [line, column].into_iter().flatten();
+                let place: String = numbers.map(|number| format!(":{number}")).collect();
+                format!("{}{place}: {message}", path.display())
+            }
             Self::File { path, doing, cause } => {
                 format!("{}: cannot {doing} it: {cause}", path.display())
             }
         };
-        // One line, whatever a driver or a file name put into the message.
-        f.write_str(&text.split_whitespace().collect::<Vec<_>>().join(" "))
+        f.write_str(&one_line(&text))
+    }
+}
+
+/// One line of readable length, whatever a driver, a file or a file's name put into the text: a terminal must not be
+/// steered by what a stranger wrote.
+pub fn one_line(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let line = words.join(" ").replace(char::is_control, "\u{fffd}");
+    shortened(&line, LONGEST_MESSAGE)
+}
+
+/// In characters.
+const LONGEST_MESSAGE: usize = 600;
+const LONGEST_QUOTE: usize = 60;
+
+/// What was found, in quotes and in one line, without its end where it is long.
+pub fn quoted(found: &str) -> String {
+    let found = shortened(found, LONGEST_QUOTE);
+    format!(
+        "\"{}\"",
+        found
+            .escape_debug()
+            .collect::<String>()
+            .replace("\\'", "'")
+            .replace("\\\"", "\"")
+    )
+}
+
+fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
     }
 }
 
@@ -98,6 +150,10 @@ impl std::error::Error for Error {}
 
 /// ` (did you mean "x"?)` when one of `known` is close to `found`, else nothing.
 pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    // Comparing takes time and memory in proportion to the length, and nothing long is a slip of the pen.
+    if found.len() > LONGEST_QUOTE {
+        return String::new();
+    }
     known
         .into_iter()
         .map(|name| (strsim::damerau_levenshtein(found, name), name))

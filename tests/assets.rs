@@ -62,7 +62,7 @@ fn the_lighthouse_has_its_parts_and_its_texture() {
     ];
     assert_eq!(names, expected);
     for part in &parts {
-        let texture = part.material.texture.as_ref();
+        let texture = part.material.as_ref().unwrap().texture.as_ref();
         assert_eq!(texture.is_some(), part.name == "tower", "{}", part.name);
         if let Some(texture) = texture {
             assert_eq!(texture.dimensions(), (256, 256));

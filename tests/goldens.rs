@@ -70,6 +70,14 @@ const CASES: &[Case] = &[
         "moved-keys",
         "--size 320x320 --time 1.5 --keys wwddq<Left><Left><PageUp>oo",
     ),
+    cs541(
+        "five-shapes",
+        "--scene assets/five_shapes.toml --size 400x300",
+    ),
+    cs541(
+        "five-shapes-visibility",
+        "--scene assets/five_shapes.toml --size 400x300 --show visibility",
+    ),
 ];
 
 impl Case {

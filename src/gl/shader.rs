@@ -8,6 +8,7 @@ use glam::{DMat3, DMat4, DVec3};
 use glow::HasContext;
 
 use super::mesh::ATTRIBUTES;
+use crate::scene::reading;
 use crate::{Error, Result};
 
 /// A lab's shader files: those in the binary, or a student's own of the same names in their place.
@@ -50,8 +51,7 @@ impl Shaders {
         if let Some(path) = self.students.as_ref().map(|folder| folder.join(name))
             && path.exists()
         {
-            let text =
-                std::fs::read_to_string(&path).map_err(|cause| Error::reading(&path, cause))?;
+            let text = reading::read_text(&path, reading::TEXT_LIMIT)?;
             return Ok(Source {
                 path,
                 text: Cow::Owned(text),

@@ -4,9 +4,12 @@
 //! Right-handed; y is up in the scenes that this project made itself.
 
 pub mod camera;
+pub mod file;
 pub mod mesh;
 pub mod obj;
+pub mod reading;
 pub mod shapes;
+mod texture;
 
 use std::sync::Arc;
 
@@ -58,6 +61,17 @@ pub struct Material {
     pub specular: DVec3,
     pub shininess: f64,
     pub texture: Option<Arc<image::RgbImage>>,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            diffuse: DVec3::ONE,
+            specular: DVec3::splat(0.5),
+            shininess: 50.0,
+            texture: None,
+        }
+    }
 }
 
 /// A light source with the camera that its shadow map is drawn from.

@@ -134,7 +134,10 @@ fn lighthouse() -> Result<Vec<Object>> {
     )?;
     let placement =
         DMat4::from_translation(dvec3(-0.9, 0.0, -2.6)) * DMat4::from_scale(DVec3::splat(1.75));
-    let placed = |part: obj::Part| object(&part.name, part.mesh, placement, part.material);
+    let placed = |part: obj::Part| {
+        let material = part.material.unwrap_or_default();
+        object(&part.name, part.mesh, placement, material)
+    };
     Ok(parts.into_iter().map(placed).collect())
 }
 
