@@ -192,7 +192,7 @@ fn every_key_of_the_list_changes_the_picture() {
         assert!(differing(&before, &bench.picture()) > 100, "{key}");
         count += 1;
     }
-    assert_eq!(count, 16);
+    assert_eq!(count, 19);
     let mut bench = Bench::new("cs541", SIZE, &[]);
     assert!(
         !bench.lab.key(labs::Key::Char('z')),

@@ -1,6 +1,8 @@
 //! What can be set, and which keys move what.
 
-use crate::labs::{Kind, Setting};
+use crate::labs::{Kind, Setting, Settings};
+use crate::scene::{Beam, LightKind, Scene};
+use crate::{Error, Result};
 
 /// Movements of one key press. The course's programs are each student's own: these steps were chosen.
 pub const EYE_STEP: f64 = 0.25;
@@ -112,3 +114,41 @@ pub const SETTINGS: &[Setting] = &[
         help: "the first pass is drawn when the light or a caster has changed, or in every frame as in the course",
     },
 ];
+
+/// The scene's light decides where the settings start.
+pub fn take_light(scene: &Scene, settings: &mut Settings) -> Result<()> {
+    let [light] = &scene.lights[..] else {
+        let found = scene.lights.len();
+        return Err(Error::usage(format!(
+            "the scene has {found} lights, expected 1: cs541 has a single light source"
+        )));
+    };
+    match light.kind {
+        LightKind::Spot { cone, beam } => {
+            let beam = match beam {
+                Beam::Rectangular => "rectangular",
+                Beam::Circular => "circular",
+            };
+            settings.set("light=spot")?;
+            settings.set(&format!("beam={beam}"))?;
+            settings.set(&format!("spot_angle={cone}"))
+        }
+        LightKind::Point { shadow_fov } => {
+            settings.set("light=point")?;
+            settings.set(&format!("shadow_fov={shadow_fov}"))
+        }
+        LightKind::Directional { .. } => Err(Error::usage(
+            "the scene has a directional light, expected spot or point: cs541 draws no other",
+        )),
+    }
+}
+
+/// The remedy with epsilon in place of the one without, and that epsilon.
+pub fn set_bias(settings: &mut Settings, bias: f64) -> Result<()> {
+    match settings.choice("remedy") {
+        "none" => settings.set("remedy=epsilon")?,
+        "culling" => settings.set("remedy=both")?,
+        _ => (),
+    }
+    settings.set(&format!("epsilon={bias}"))
+}

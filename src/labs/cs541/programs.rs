@@ -1,0 +1,127 @@
+//! "Vertex and fragment shaders": which files make which program, and what is set in it.
+
+use crate::Result;
+use crate::gl::trace::{ObjectKind, name_object};
+use crate::gl::{self, Program, Shaders};
+
+/// The shaders, which are the lesson's other half.
+pub const SHADERS: &[(&str, &str)] = &[
+    (
+        "shadow.vert",
+        include_str!("../../../glsl/cs541/shadow.vert"),
+    ),
+    (
+        "shadow.frag",
+        include_str!("../../../glsl/cs541/shadow.frag"),
+    ),
+    (
+        "lighting.vert",
+        include_str!("../../../glsl/cs541/lighting.vert"),
+    ),
+    (
+        "lighting.frag",
+        include_str!("../../../glsl/cs541/lighting.frag"),
+    ),
+    (
+        "visibility.frag",
+        include_str!("../../../glsl/cs541/visibility.frag"),
+    ),
+    (
+        "explain.frag",
+        include_str!("../../../glsl/cs541/explain.frag"),
+    ),
+    ("unlit.vert", include_str!("../../../glsl/cs541/unlit.vert")),
+    ("unlit.frag", include_str!("../../../glsl/cs541/unlit.frag")),
+];
+
+/// Uniforms that both passes and the sky have.
+pub const MATRICES: [&str; 3] = ["persp_matrix", "view_matrix", "model_matrix"];
+/// Uniforms of the shadow test.
+pub const SHADOW_TEST: [&str; 6] = [
+    "shadow_persp_matrix",
+    "shadow_view_matrix",
+    "shadow_sampler",
+    "epsilon",
+    "shadows",
+    "beam",
+];
+
+/// The programs of the two passes, and of what is neither lit nor shadowed.
+pub struct Programs {
+    pub shadow: Program,
+    pub lighting: Program,
+    pub unlit: Program,
+}
+
+impl Programs {
+    /// All of them or none: a lab never draws with half of its shaders.
+    pub fn new(gl: &glow::Context, shaders: &Shaders) -> Result<Self> {
+        let shadow = shadow_program(gl, shaders)?;
+        let lighting = lighting_program(gl, shaders).inspect_err(|_| shadow.delete(gl))?;
+        let unlit = unlit_program(gl, shaders).inspect_err(|_| {
+            shadow.delete(gl);
+            lighting.delete(gl);
+        })?;
+        Ok(Self {
+            shadow,
+            lighting,
+            unlit,
+        })
+    }
+
+    pub fn delete(&self, gl: &glow::Context) {
+        for program in [&self.shadow, &self.lighting, &self.unlit] {
+            program.delete(gl);
+        }
+    }
+}
+
+fn shadow_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the shadow shader program");
+    let program = Program::new(gl, shaders, "shadow.vert", "shadow.frag", &MATRICES)?;
+    name_object(
+        ObjectKind::Program,
+        program.handle.0.get(),
+        "shadow_program",
+    );
+    Ok(program)
+}
+
+fn lighting_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the lighting shader program");
+    let lighting = [
+        "normal_matrix",
+        "eye_position",
+        "light_position",
+        "ambient_color",
+        "light_color",
+        "diffuse_color",
+        "specular_color",
+        "shininess",
+        "usampler",
+    ];
+    let uniforms = [&MATRICES[..], &SHADOW_TEST, &lighting].concat();
+    let program = Program::new(gl, shaders, "lighting.vert", "lighting.frag", &uniforms)?;
+    name_object(ObjectKind::Program, program.handle.0.get(), "program");
+    Ok(program)
+}
+
+/// The shadow test alone; no part of the handout, so it is made when it is first asked for.
+pub fn visibility_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the visibility shader program");
+    let uniforms = [&MATRICES[..], &SHADOW_TEST].concat();
+    let program = Program::new(gl, shaders, "lighting.vert", "visibility.frag", &uniforms)?;
+    name_object(
+        ObjectKind::Program,
+        program.handle.0.get(),
+        "visibility_program",
+    );
+    Ok(program)
+}
+
+fn unlit_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let uniforms = [&MATRICES[..], &["diffuse_color", "usampler"]].concat();
+    let program = Program::new(gl, shaders, "unlit.vert", "unlit.frag", &uniforms)?;
+    name_object(ObjectKind::Program, program.handle.0.get(), "sky_program");
+    Ok(program)
+}

@@ -1,0 +1,221 @@
+//! "Second pass: using the shadow map".
+//!
+//! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
+#![allow(unsafe_code)]
+
+use glam::{DMat3, DMat4, DVec3};
+use glow::HasContext;
+
+use super::Cs541;
+use super::programs::visibility_program;
+use crate::Result;
+use crate::gl::{self, Program};
+use crate::scene::{Beam, Camera, Light, LightKind, Material, Object, camera, rotate};
+
+/// The radius of the sphere that shows where the light is, in world units.
+const MARKER_RADIUS: f64 = 0.12;
+
+/// What is drawn without light and shadow: the dome around the eye, and the marker that shows where the light is.
+pub struct Sky {
+    pub dome: gl::Mesh,
+    pub texture: Option<glow::Texture>,
+    pub marker_texture: glow::Texture,
+}
+
+/// `beam` in the shaders.
+const NO_BEAM: i32 = 0;
+const RECTANGULAR: i32 = 1;
+pub const CIRCULAR: i32 = 2;
+
+impl Cs541 {
+    pub(super) fn light(&self) -> &Light {
+        &self.scene.lights[0]
+    }
+
+    /// The user's camera, or the light's while `x` is on.
+    pub(super) fn camera(&self) -> Camera {
+        if self.look_from_light {
+            let Camera { near, far, .. } = self.scene.camera;
+            Camera {
+                near,
+                far,
+                ..self.light_camera()
+            }
+        } else {
+            self.scene.camera
+        }
+    }
+
+    pub(super) fn aspect(&self) -> f64 {
+        f64::from(self.size[0]) / f64::from(self.size[1])
+    }
+
+    pub(super) fn beam(&self) -> i32 {
+        match self.light_kind() {
+            LightKind::Spot {
+                beam: Beam::Circular,
+                ..
+            } => CIRCULAR,
+            LightKind::Spot { .. } => RECTANGULAR,
+            _ => NO_BEAM,
+        }
+    }
+
+    pub(super) fn epsilon(&self) -> f64 {
+        match self.settings.choice("remedy") {
+            "epsilon" | "both" => self.settings.number("epsilon"),
+            _ => 0.0,
+        }
+    }
+
+    pub(super) fn draw_scene(&self, gl: &glow::Context) {
+        let _pass = gl::pass(gl, "second pass: using the shadow map");
+        let [red, green, blue] = self.scene.clear.as_vec3().to_array();
+        self.select_window(gl, [red, green, blue, 1.0]);
+        self.draw_sky(gl);
+
+        let program = &self.programs.lighting;
+        let eye = self.camera().eye;
+        let Light {
+            position, color, ..
+        } = *self.light();
+        unsafe { gl.use_program(Some(program.handle)) };
+        self.use_shadow_map(gl, program);
+        program.set(gl, "usampler", 0);
+        program.set(gl, "eye_position", DVec3::ZERO);
+        program.set(gl, "light_position", position - eye);
+        program.set(gl, "light_color", color);
+        program.set(gl, "ambient_color", self.scene.ambient);
+        unsafe { gl.active_texture(glow::TEXTURE0) };
+        for (index, object) in self.scene.objects.iter().enumerate() {
+            let Material {
+                diffuse,
+                specular,
+                shininess,
+                ..
+            } = object.material;
+            unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(self.textures[index])) };
+            let model = self.model_from(eye, object);
+            program.set(gl, "model_matrix", model);
+            program.set(
+                gl,
+                "normal_matrix",
+                DMat3::from_mat4(model).inverse().transpose(),
+            );
+            program.set(gl, "diffuse_color", diffuse);
+            program.set(gl, "specular_color", specular);
+            program.set(gl, "shininess", shininess);
+            self.meshes[index].draw(gl);
+        }
+    }
+
+    pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
+        if self.visibility.is_none() {
+            self.visibility = Some(visibility_program(gl, &self.shaders)?);
+        }
+        let program = self.visibility.as_ref().expect("made above");
+        let _pass = gl::pass(gl, "second pass: the shadow test alone");
+        self.select_window(gl, [1.0; 4]);
+        unsafe { gl.use_program(Some(program.handle)) };
+        self.use_shadow_map(gl, program);
+        let eye = self.camera().eye;
+        for (mesh, object) in self.meshes.iter().zip(&self.scene.objects) {
+            program.set(gl, "model_matrix", self.model_from(eye, object));
+            mesh.draw(gl);
+        }
+        Ok(())
+    }
+
+    /// The viewport reset to the window's size; framebuffer 0 is bound ever since the last first pass.
+    pub(super) fn select_window(&self, gl: &glow::Context, [red, green, blue, alpha]: [f32; 4]) {
+        let [width, height] = self.size.map(|n| n as i32);
+        unsafe {
+            gl.viewport(0, 0, width, height);
+            gl.clear_color(red, green, blue, alpha);
+            gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
+        }
+    }
+
+    /// What every program with the shadow test needs: both cameras, the map on texture unit 1, the test's settings.
+    pub(super) fn use_shadow_map(&self, gl: &glow::Context, program: &Program) {
+        unsafe {
+            gl.active_texture(glow::TEXTURE1);
+            gl.bind_texture(
+                glow::TEXTURE_2D,
+                Some(self.shadow_buffer.depth_texture_buffer),
+            );
+        }
+        program.set(gl, "shadow_sampler", 1);
+        program.set(gl, "epsilon", self.epsilon());
+        program.set(gl, "shadows", i32::from(self.settings.switch("shadows")));
+        program.set(gl, "beam", self.beam());
+
+        let camera = self.camera();
+        program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
+        program.set(
+            gl,
+            "view_matrix",
+            camera::view(DVec3::ZERO, camera.look, camera.rup),
+        );
+
+        let light = self.light_camera();
+        let view = camera::view(light.eye - camera.eye, light.look, light.rup);
+        program.set(gl, "shadow_persp_matrix", light.perspective(1.0));
+        program.set(gl, "shadow_view_matrix", view);
+    }
+
+    /// Object space to a world whose origin is at `eye`.
+    pub(super) fn model_from(&self, eye: DVec3, object: &Object) -> DMat4 {
+        DMat4::from_translation(-eye) * object.model(self.time)
+    }
+
+    /// The sky dome, around the eye and behind everything, and the marker that shows where the light is.
+    fn draw_sky(&self, gl: &glow::Context) {
+        let program = &self.programs.unlit;
+        let Sky {
+            dome,
+            texture,
+            marker_texture,
+        } = &self.sky;
+        let camera = self.camera();
+        let dome_planes = Camera {
+            near: 0.01,
+            far: None,
+            ..camera
+        };
+        unsafe {
+            gl.use_program(Some(program.handle));
+            gl.active_texture(glow::TEXTURE0);
+        }
+        program.set(gl, "usampler", 0);
+        program.set(
+            gl,
+            "view_matrix",
+            camera::view(DVec3::ZERO, camera.look, camera.rup),
+        );
+        if let Some(texture) = texture {
+            unsafe {
+                gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
+                gl.depth_mask(false);
+            }
+            program.set(gl, "persp_matrix", dome_planes.perspective(self.aspect()));
+            // The sphere's poles are on z; the sky's are up and down.
+            program.set(gl, "model_matrix", rotate(-90.0, DVec3::X));
+            program.set(gl, "diffuse_color", DVec3::ONE);
+            dome.draw(gl);
+            unsafe { gl.depth_mask(true) };
+        }
+        let light = &self.light();
+        let offset = light.position - camera.eye;
+        // From within, the marker would hide everything.
+        if offset.length() > 2.0 * MARKER_RADIUS {
+            unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(*marker_texture)) };
+            let model =
+                DMat4::from_translation(offset) * DMat4::from_scale(DVec3::splat(MARKER_RADIUS));
+            program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
+            program.set(gl, "model_matrix", model);
+            program.set(gl, "diffuse_color", light.color);
+            dome.draw(gl);
+        }
+    }
+}
