@@ -3,6 +3,7 @@
 //! A frame is drawn when something has changed or moves. Otherwise the program sleeps until the next event.
 
 use std::io::Write;
+use std::panic;
 use std::time::{Duration, Instant};
 
 use notify::RecommendedWatcher;
@@ -33,15 +34,13 @@ const WHEEL_STEP: f64 = 40.0;
 struct Saved;
 
 pub fn run(view: View) -> Result<()> {
-    let no_display = |error: &dyn std::fmt::Display| {
+    let no_display = |error: String| {
         Error::gl(format!(
-            "no window: {error}; expected an X11 or Wayland display (`shadowlab screenshot {}` needs none)",
+            "no window: {error}, expected an X11 or Wayland display; `shadowlab screenshot {}` needs none",
             view.handout.name
         ))
     };
-    let event_loop = EventLoop::<Saved>::with_user_event()
-        .build()
-        .map_err(|error| no_display(&error))?;
+    let event_loop = connect().map_err(no_display)?;
     let mut app = App {
         saved: event_loop.create_proxy(),
         view: Some(view),
@@ -53,6 +52,28 @@ pub fn run(view: View) -> Result<()> {
         return Err(error);
     }
     ended.map_err(|error| Error::gl(format!("the window's events ended: {error}")))
+}
+
+/// The connection to the desktop, or why there is none.
+fn connect() -> std::result::Result<EventLoop<Saved>, String> {
+    // winit panics where a library is missing: its message is kept, its backtrace is for nobody.
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let built = panic::catch_unwind(|| EventLoop::with_user_event().build());
+    panic::set_hook(hook);
+    let reason = match built {
+        Ok(Ok(event_loop)) => return Ok(event_loop),
+        // Before the reason stands a line of winit's source.
+        Ok(Err(error)) => match error.to_string().rsplit_once(": ") {
+            Some((_, reason)) => reason.to_owned(),
+            None => error.to_string(),
+        },
+        Err(panic) => match panic.downcast_ref::<String>() {
+            Some(reason) => reason.clone(),
+            None => "winit cannot start".to_owned(),
+        },
+    };
+    Err(reason.trim_end_matches('.').to_owned())
 }
 
 /// From start to end: `view`, until the desktop lets a window open, then `open`.

@@ -38,7 +38,7 @@ pub struct View {
     /// In logical pixels: a HiDPI screen shows the window as large as any other, with more pixels.
     pub size: [u32; 2],
     /// Brings the new lab to the state that the options name.
-    pub prepare: Box<dyn FnOnce(&mut dyn Lab) -> Result<()>>,
+    pub prepare: Prepare,
     /// What `prepare` does to the lab, as far as the viewer goes on with it.
     pub inputs: Vec<Input>,
     /// In seconds.
@@ -52,6 +52,8 @@ pub struct View {
     /// Draw this many frames without a rest, then end.
     pub frames: Option<u64>,
 }
+
+pub type Prepare = Box<dyn FnOnce(&mut dyn Lab) -> Result<()>>;
 
 /// How the window gets its context.
 #[derive(Clone, Copy, Debug, PartialEq)]

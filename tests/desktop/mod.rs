@@ -9,8 +9,9 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
+use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask};
 
-/// How long a test waits for what must come: a debug build on a busy machine is slow, and nothing else waits this long.
+/// How long a test waits for what must come, on a busy machine too.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// An X server of the test's own; it ends with the test, however that ends.
@@ -38,6 +39,11 @@ impl Desktop {
             name: format!(":{}", number.trim()),
             folder: folder.to_owned(),
         }
+    }
+
+    /// As `DISPLAY` has it.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// The program on this display, in the test's folder.
@@ -70,7 +76,7 @@ impl Desktop {
         })
     }
 
-    /// The size of the screen's picture that satisfies, or the last one.
+    /// The screen once it is right, or as it still is when patience ends.
     pub fn wait_for_screen(&self, size: [u32; 2], right: impl Fn(&RgbImage) -> bool) -> RgbImage {
         let began = Instant::now();
         loop {
@@ -94,7 +100,7 @@ impl Drop for Desktop {
 pub struct Viewer<'a> {
     desktop: &'a Desktop,
     pub process: Child,
-    lines: Receiver<String>,
+    pub lines: Receiver<String>,
     id: String,
 }
 
@@ -156,6 +162,24 @@ impl<'a> Viewer<'a> {
     pub fn window(&self, command: &str, words: &[&str]) {
         self.desktop
             .xdotool(&[&[command, &self.id], words].concat());
+    }
+
+    /// Asks the window to close, as the button of a window manager does.
+    pub fn close(&self) {
+        let (server, _) = x11rb::connect(Some(&self.desktop.name)).unwrap();
+        let atom = |name: &[u8]| {
+            server
+                .intern_atom(false, name)
+                .unwrap()
+                .reply()
+                .unwrap()
+                .atom
+        };
+        let window = self.id.parse().unwrap();
+        let question = [atom(b"WM_DELETE_WINDOW"), 0, 0, 0, 0];
+        let event = ClientMessageEvent::new(32, window, atom(b"WM_PROTOCOLS"), question);
+        let sent = server.send_event(false, window, EventMask::NO_EVENT, event);
+        sent.unwrap().check().unwrap();
     }
 
     /// Presses F12: the picture's file, and the command line that the viewer prints with it.

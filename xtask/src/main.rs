@@ -17,15 +17,17 @@ use setup::Need;
 const HELP: &str = "\
 cargo xtask COMMAND
 
-  run [LAB] [-- OPTION…]   write a screenshot of the lab (cs541 where none is named) to LAB.png;
-                           the options go to `shadowlab screenshot`
+  run [LAB] [-- OPTION…]   open the lab (cs541 where none is named) in a window, or, where there is no
+                           display, write a screenshot to LAB.png; the options go to `shadowlab view`,
+                           or to `shadowlab screenshot`
   test [FILTER…]           run every test of the workspace, without a display
+  soak [FRAMES]            100,000 frames in the viewer, and the memory that they leave behind
   bless [CASE…]            rewrite the golden pictures of tests/golden
   assets                   rewrite the models, textures and scene files of assets
   help                     this text
 
-`run`, `test` and `bless` look for an OpenGL 3.3 driver first. Where something is missing, they install
-it on Debian and its kin (as root or through sudo), and elsewhere name the packages and stop.";
+`run`, `test`, `soak` and `bless` look for an OpenGL 3.3 driver first, and for what else they need. Where
+something is missing, they install it on Debian and its kin (as root or through sudo), and elsewhere name the packages and stop.";
 
 /// A wrong command line: exit code 2, where every other failure is 1 or the code of the program called.
 #[derive(Debug)]
@@ -59,6 +61,8 @@ fn dispatch(words: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
         }
         ["run", rest @ ..] => run(rest),
         ["test", filters @ ..] => test(filters),
+        ["soak"] => soak("100000"),
+        ["soak", frames] => soak(frames),
         ["bless", cases @ ..] => bless(cases),
         ["assets"] => {
             assets::write_all(&root().join("assets"))?;
@@ -66,7 +70,7 @@ fn dispatch(words: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
         }
         // Not in the help: `setup` asks a new process what drivers there are.
         [setup::PROBE, need] => Ok(setup::probe(need)),
-        ["help" | "--help" | "-h" | "assets", extra, ..] => {
+        ["soak", _, extra, ..] | ["help" | "--help" | "-h" | "assets", extra, ..] => {
             Err(Usage(format!("{}: unexpected argument \"{extra}\"", words[0])).into())
         }
         [command, ..] => Err(Usage(format!("there is no command \"{command}\"")).into()),
@@ -75,12 +79,20 @@ fn dispatch(words: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
 
 fn run(words: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
     let (lab, options) = lab_and_options(words)?;
-    setup::ensure(&[Need::AnyDriver])?;
+    let display = DISPLAYS[..2]
+        .iter()
+        .any(|name| env::var_os(name).is_some_and(|value| !value.is_empty()));
+    let command = if display { "view" } else { "screenshot" };
+    setup::ensure(if display {
+        &[Need::AnyDriver, Need::WindowLibraries]
+    } else {
+        &[Need::AnyDriver]
+    })?;
     // The screenshot writes LAB.png where no option says otherwise, and prints the file's name itself.
     exit_code(
-        cargo("run")
+        cargo_with_display("run")
             .args(["--quiet", "--package", "shadowlab", "--"])
-            .args(["screenshot", lab])
+            .args([command, lab])
             .args(options),
     )
 }
@@ -91,7 +103,7 @@ fn lab_and_options<'a>(words: &'a [&'a str]) -> Result<(&'a str, &'a [&'a str]),
         [] => Ok(("cs541", &[])),
         ["--", options @ ..] => Ok(("cs541", options)),
         [option, ..] if option.starts_with('-') => Err(Usage(format!(
-            "run: options of the screenshot come after \"--\", found \"{option}\" before it"
+            "run: the program's options come after \"--\", found \"{option}\" before it"
         ))),
         [lab] => Ok((lab, &[])),
         [lab, "--", options @ ..] => Ok((lab, options)),
@@ -100,8 +112,27 @@ fn lab_and_options<'a>(words: &'a [&'a str]) -> Result<(&'a str, &'a [&'a str]),
 }
 
 fn test(filters: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
-    setup::ensure(&[Need::SoftwareDriver, Need::Apitrace])?;
+    setup::ensure(&[
+        Need::SoftwareDriver,
+        Need::Apitrace,
+        Need::WindowLibraries,
+        Need::Xvfb,
+        Need::Xdotool,
+    ])?;
     exit_code(cargo("test").args(["--workspace", "--"]).args(filters))
+}
+
+fn soak(frames: &str) -> Result<ExitCode, Box<dyn Error>> {
+    // The memory is measured from the thousandth frame on.
+    if !frames.parse::<u32>().is_ok_and(|frames| frames >= 2000) {
+        return Err(Usage(format!("soak: \"{frames}\", expected 2000 frames or more")).into());
+    }
+    setup::ensure(&[Need::WindowLibraries, Need::Xvfb, Need::Xdotool])?;
+    exit_code(
+        cargo("test")
+            .args(["--test", "soak", "--", "--ignored", "--nocapture"])
+            .env("SHADOWLAB_SOAK_FRAMES", frames),
+    )
 }
 
 fn bless(cases: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
@@ -114,17 +145,25 @@ fn bless(cases: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
     )
 }
 
+/// Where a program finds a display.
+const DISPLAYS: [&str; 3] = ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
+
 /// `cargo SUBCOMMAND` on this workspace, from whatever folder the user stands in.
 ///
 /// The display is taken away: what runs here must not come to depend on one.
 fn cargo(subcommand: &str) -> Command {
+    let mut command = cargo_with_display(subcommand);
+    for display in DISPLAYS {
+        command.env_remove(display);
+    }
+    command
+}
+
+fn cargo_with_display(subcommand: &str) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command
         .args([subcommand, "--release", "--manifest-path"])
         .arg(root().join("Cargo.toml"));
-    for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
-        command.env_remove(display);
-    }
     command
 }
 
@@ -172,7 +211,14 @@ mod tests {
 
     #[test]
     fn an_unknown_command_is_a_wrong_command_line() {
-        for words in [&["tset"][..], &["help", "run"], &["assets", "all"]] {
+        for words in [
+            &["tset"][..],
+            &["help", "run"],
+            &["assets", "all"],
+            &["soak", "many"],
+            &["soak", "1000"],
+            &["soak", "2000", "more"],
+        ] {
             assert!(dispatch(words).unwrap_err().is::<Usage>(), "{words:?}");
         }
     }

@@ -22,6 +22,12 @@ pub enum Need {
     SoftwareDriver,
     /// The program that writes down GL calls independently of this crate's own trace.
     Apitrace,
+    /// What a window loads when it opens.
+    WindowLibraries,
+    /// An X server without a screen, for the tests of the viewer.
+    Xvfb,
+    /// The program that presses its keys.
+    Xdotool,
 }
 
 /// A need that is not met, and what was found in its place.
@@ -60,7 +66,10 @@ fn look(needs: &[Need]) -> Result<Vec<Missing>, Box<dyn Error>> {
     for &need in needs {
         let found = match need {
             Need::AnyDriver | Need::SoftwareDriver => look_for_driver(need)?,
-            Need::Apitrace => look_for_apitrace(),
+            Need::Apitrace => look_for_program("apitrace", "version"),
+            Need::WindowLibraries => look_for_libraries(),
+            Need::Xvfb => look_for_program("Xvfb", "-version"),
+            Need::Xdotool => look_for_program("xdotool", "version"),
         };
         if let Err(found) = found {
             missing.push(Missing { need, found });
@@ -118,11 +127,12 @@ fn describe(devices: &[headless::Device]) -> String {
     devices.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-// --- apitrace ---
+// --- programs and libraries ---
 
-fn look_for_apitrace() -> Result<(), String> {
-    let ran = Command::new("apitrace")
-        .arg("version")
+/// Whether the program starts; `version` is an argument that lets it end at once.
+fn look_for_program(program: &str, version: &str) -> Result<(), String> {
+    let ran = Command::new(program)
+        .arg(version)
         .stdin(Stdio::null())
         .output();
     match ran {
@@ -132,32 +142,100 @@ fn look_for_apitrace() -> Result<(), String> {
     }
 }
 
+/// What winit and glutin load by these names; the first of them that is missing ends the viewer. Wayland's are loaded
+/// in their place where that is the desktop, and belong to it.
+const LIBRARIES: [&str; 7] = [
+    "libX11.so.6",
+    "libX11-xcb.so.1",
+    "libXcursor.so.1",
+    "libXi.so.6",
+    "libxkbcommon.so.0",
+    "libxkbcommon-x11.so.0",
+    "libGL.so.1",
+];
+
+fn look_for_libraries() -> Result<(), String> {
+    // A system without this list has its libraries elsewhere: there the viewer itself says what it misses.
+    let Ok(list) = Command::new("/sbin/ldconfig").arg("-p").output() else {
+        return Ok(());
+    };
+    let list = String::from_utf8_lossy(&list.stdout).into_owned();
+    let listed = |library: &&str| list.lines().any(|line| line.trim().starts_with(*library));
+    let absent: Vec<_> = LIBRARIES
+        .into_iter()
+        .filter(|library| !listed(library))
+        .collect();
+    if absent.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("without {}", absent.join(", ")))
+    }
+}
+
 // --- what to install ---
 
-/// A system's names for the packages of a driver (libEGL, Mesa's half of it, and llvmpipe) and of apitrace.
+/// A system's names for the packages of a driver (libEGL, Mesa's half of it, and llvmpipe), of what a window loads (the
+/// last of them is Mesa's GLX), and of the programs that the tests call.
 #[derive(Clone, Copy)]
 struct System {
     driver: &'static [&'static str],
+    window: &'static [&'static str],
     apitrace: &'static str,
+    xvfb: &'static str,
+    xdotool: &'static str,
 }
 
 const DEBIAN: System = System {
     driver: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+    window: &[
+        "libx11-6",
+        "libx11-xcb1",
+        "libxcursor1",
+        "libxi6",
+        "libxkbcommon-x11-0",
+        "libgl1",
+        "libglx-mesa0",
+    ],
     apitrace: "apitrace",
+    xvfb: "xvfb",
+    xdotool: "xdotool",
 };
 const FEDORA: System = System {
     driver: &["mesa-libEGL", "mesa-dri-drivers"],
+    window: &[
+        "libX11",
+        "libX11-xcb",
+        "libXcursor",
+        "libXi",
+        "libxkbcommon-x11",
+        "mesa-libGL",
+    ],
     apitrace: "apitrace",
+    xvfb: "xorg-x11-server-Xvfb",
+    xdotool: "xdotool",
 };
 const ARCH: System = System {
     driver: &["mesa", "libglvnd"],
+    window: &[
+        "libx11",
+        "libxcursor",
+        "libxi",
+        "libxkbcommon-x11",
+        "libglvnd",
+        "mesa",
+    ],
     apitrace: "apitrace",
+    xvfb: "xorg-server-xvfb",
+    xdotool: "xdotool",
 };
 
 fn packages(missing: &[Missing], system: System) -> Vec<&'static str> {
     let of_one = |missing: &Missing| match missing.need {
         Need::AnyDriver | Need::SoftwareDriver => system.driver.to_vec(),
         Need::Apitrace => vec![system.apitrace],
+        Need::WindowLibraries => system.window.to_vec(),
+        Need::Xvfb => vec![system.xvfb],
+        Need::Xdotool => vec![system.xdotool],
     };
     missing.iter().flat_map(of_one).collect()
 }
@@ -181,6 +259,9 @@ fn what_is_missing(missing: &[Missing]) -> String {
             Need::AnyDriver => "an OpenGL 3.3 driver that EGL can load",
             Need::SoftwareDriver => "a software OpenGL 3.3 driver (llvmpipe) that EGL can load",
             Need::Apitrace => "the program apitrace",
+            Need::WindowLibraries => "the libraries that a window loads",
+            Need::Xvfb => "the program Xvfb",
+            Need::Xdotool => "the program xdotool",
         };
         let found: Vec<&str> = missing.found.split_whitespace().collect();
         format!("{what} ({})", found.join(" "))
