@@ -8,7 +8,7 @@ use std::num::NonZeroU32;
 use std::time::Duration;
 
 use glow::HasContext;
-use glutin::config::{Config, ConfigTemplateBuilder, GlConfig};
+use glutin::config::{ColorBufferType, Config, ConfigTemplateBuilder, GlConfig};
 use glutin::context::{
     ContextApi, ContextAttributesBuilder, GlProfile, PossiblyCurrentContext, Version,
 };
@@ -140,7 +140,13 @@ fn open_display(event_loop: &ActiveEventLoop, api: Api) -> Result<Display> {
         .map_err(|error| refused("a display", error))
 }
 
-/// One sample, as the headless pictures have; alpha if there is, but none that the desktop would look through.
+const EIGHT_BITS: ColorBufferType = ColorBufferType::Rgb {
+    r_size: 8,
+    g_size: 8,
+    b_size: 8,
+};
+
+/// One sample and 8 bits a colour, as the headless pictures have; alpha if there is, but none that the desktop would look through.
 fn choose_config(display: &Display) -> Result<Config> {
     let template = ConfigTemplateBuilder::new()
         .with_alpha_size(0)
@@ -153,6 +159,7 @@ fn choose_config(display: &Display) -> Result<Config> {
         .min_by_key(|config| {
             (
                 config.num_samples(),
+                config.color_buffer_type() != Some(EIGHT_BITS),
                 config.supports_transparency() == Some(true),
                 config.alpha_size().abs_diff(8),
             )
