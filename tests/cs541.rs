@@ -159,6 +159,25 @@ fn what_casts_no_shadow_is_not_in_the_map() {
 }
 
 #[test]
+fn the_mouse_turns_the_look_and_never_over_the_top() {
+    let after = |keys: &str| {
+        let mut bench = Bench::new("cs541", SIZE, &[]);
+        bench.press(keys);
+        bench.picture()
+    };
+    let straight = after("");
+    // A turn to the right shows on the left what was in the middle: the same turn back undoes it.
+    let turned = after("<Drag:60,0>");
+    assert!(differing(&straight, &turned) > 1000);
+    assert!(differing(&straight, &after("<Drag:60,0><Drag:-60,0>")) < 100);
+    // However far the mouse goes up, the look stops where up still means something.
+    let up = after("<Drag:0,-100000>");
+    assert_eq!(differing(&up, &after("<Drag:0,-100000><Drag:0,-50>")), 0);
+    assert!(differing(&up, &after("<Drag:0,-100000><Drag:0,50>")) > 1000);
+    assert!(differing(&up, &after("<Drag:0,100000>")) > 1000);
+}
+
+#[test]
 fn the_same_state_is_the_same_picture_whatever_came_before() {
     let straight = Bench::new("cs541", SIZE, &["filter=nearest", "map_size=512"]).picture();
     let mut bench = Bench::new(

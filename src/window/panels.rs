@@ -144,14 +144,17 @@ impl Panels {
     }
 }
 
-/// The lab's keys and the viewer's own.
+/// The lab's keys and the viewer's own, in two columns where there is room for them.
 fn help(handout: &Handout, columns: usize) -> Vec<String> {
     let all = || handout.keys.iter().chain(&keys::OWN);
     let widest = all().map(|(keys, _)| keys.chars().count()).max();
-    let column = widest.unwrap_or(0) + 2;
-    let mut lines = Vec::new();
-    for (keys, help) in all() {
-        lines.extend(wrap(&format!("{keys:column$}{help}"), columns, column));
-    }
-    lines
+    let first = widest.unwrap_or(0) + 2;
+    let line = |(keys, help): &(&str, &str)| {
+        if columns >= 2 * first {
+            wrap(&format!("{keys:first$}{help}"), columns, first)
+        } else {
+            wrap(&format!("{keys}: {help}"), columns, 4)
+        }
+    };
+    all().flat_map(line).collect()
 }

@@ -19,13 +19,16 @@ pub struct Desktop {
     server: Child,
     name: String,
     folder: PathBuf,
+    /// Pixels for each logical pixel, along one side.
+    pub scale: u32,
 }
 
 impl Desktop {
     pub fn new(folder: &Path) -> Self {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "800x600x24"])
-            .args(["-nolisten", "tcp", "-fbdir"])
+            // No key repeats itself, however slow the machine is between press and release.
+            .args(["-nolisten", "tcp", "-r", "-fbdir"])
             .arg(folder)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -38,6 +41,7 @@ impl Desktop {
             server,
             name: format!(":{}", number.trim()),
             folder: folder.to_owned(),
+            scale: 1,
         }
     }
 
@@ -49,7 +53,10 @@ impl Desktop {
     /// The program on this display, in the test's folder.
     pub fn command(&self, program: &str) -> Command {
         let mut command = Command::new(program);
-        command.current_dir(&self.folder).env("DISPLAY", &self.name);
+        command
+            .current_dir(&self.folder)
+            .env("DISPLAY", &self.name)
+            .env("WINIT_X11_SCALE_FACTOR", self.scale.to_string());
         for other in ["WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
             command.env_remove(other);
         }

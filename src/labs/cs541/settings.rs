@@ -21,7 +21,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("x", "look from the light, and back"),
     (
         "<Tab>",
-        "put the light at the eye, pointing where the eye looks",
+        "put the light at the eye, pointing as the eye looks",
     ),
     ("<Drag:12,-5>", "turn the look (left button, in pixels)"),
     ("<Wheel:1> <Wheel:-1>", "narrow, widen the field of view"),
