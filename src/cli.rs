@@ -393,12 +393,13 @@ impl Running {
             }
             Shown::ShadowMap | Shown::DepthRaw => {
                 let map = self.lab.shadow_texture(light)?;
-                let depths = gl::read_depths(gl, map.texture, map.size);
+                let scale = map.scale;
+                let depths = gl::read_depths(gl, map.texture, [scale.size; 2]);
                 self.timings.lap("first frame");
                 if shown == Shown::DepthRaw {
                     return picture::write_depths(output, &depths, &notes);
                 }
-                picture::write_grey(output, &depths.linearised(map.near, map.far), &notes)
+                picture::write_grey(output, &depths.linearised(scale.near, scale.far), &notes)
             }
         }
     }

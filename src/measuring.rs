@@ -8,7 +8,7 @@ use image::{GrayImage, Rgb, RgbImage};
 use serde_json::json;
 use shadowlab::gl;
 use shadowlab::ground_truth::{Label, Rays, Truth};
-use shadowlab::labs::{self, Show};
+use shadowlab::labs::{self, MapScale, Show};
 use shadowlab::measure::Measure;
 use shadowlab::{Error, Result, picture};
 
@@ -160,7 +160,7 @@ impl MeasureCommand {
         let map = if self.reference.is_some() {
             None
         } else {
-            running.lab.map_scale(light)
+            running.map_scale(light)
         };
         let (figures, mistakes) = measure.measure(&visibility, map.as_ref());
         if let Some(path) = &self.output.output {
@@ -189,6 +189,13 @@ impl MeasureCommand {
             };
             format!("{figures}{least}{}", asked.speed())
         })
+    }
+}
+
+impl Running {
+    /// None where the state draws no map.
+    fn map_scale(&self, light: usize) -> Option<MapScale> {
+        self.lab.shadow_texture(light).ok().map(|map| map.scale)
     }
 }
 
@@ -224,7 +231,7 @@ fn least_bias(running: &mut Running, measure: &Measure, light: usize) -> Result<
             .lab
             .render(&running.context.gl, Show::Visibility { light })?;
         let visibility = gl::read_grey(&running.context.gl, running.size);
-        let map = running.lab.map_scale(light);
+        let map = running.map_scale(light);
         Ok(measure.interior_false_shadow(&visibility, map.as_ref()) == 0)
     };
     if is_enough(0.0)? {

@@ -141,7 +141,7 @@ fn what_casts_no_shadow_is_not_in_the_map() {
         let mut bench = Bench::with_scene("cs541", scene, SIZE, &["map_size=256"]);
         bench.picture();
         let map = bench.lab.shadow_texture(1).unwrap();
-        gl::read_depths(&bench.context.gl, map.texture, map.size).depths
+        gl::read_depths(&bench.context.gl, map.texture, [map.scale.size; 2]).depths
     };
     let all = scene();
     assert!(depths(all.clone()).iter().any(|depth| *depth < 1.0));

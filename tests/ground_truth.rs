@@ -425,7 +425,7 @@ fn the_labs_picture_scores_as_it_should() {
         let visibility = bench.visibility();
         let rays = Rays::new(&bench.lab.now(), 0);
         let truth = rays.truth(SIZE);
-        let map = bench.lab.map_scale(1);
+        let map = bench.map_scale();
         Measure::new(&rays, &truth)
             .measure(&visibility, map.as_ref())
             .0
@@ -466,7 +466,7 @@ fn keys_settings_and_time_reach_the_truth() {
     let visibility = bench.visibility();
     let rays = Rays::new(&bench.lab.now(), 0);
     let figures = Measure::new(&rays, &after)
-        .measure(&visibility, bench.lab.map_scale(1).as_ref())
+        .measure(&visibility, bench.map_scale().as_ref())
         .0;
     assert_eq!(
         (figures.false_shadow.interior, figures.false_light.interior),

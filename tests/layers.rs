@@ -24,7 +24,15 @@ const ROOMS: &[Room] = &[
     Room {
         name: "main",
         imports: &[
-            "headless", "window", "labs", "gl", "scene", "picture", "error",
+            "headless",
+            "window",
+            "measure",
+            "ground_truth",
+            "labs",
+            "gl",
+            "scene",
+            "picture",
+            "error",
         ],
         crates: &[],
         may_be_unsafe: false,
@@ -40,6 +48,20 @@ const ROOMS: &[Room] = &[
         imports: &["labs", "gl", "scene", "picture", "error"],
         crates: &["glow", "glutin"],
         may_be_unsafe: true,
+    },
+    // Knows a picture and the truth; of a lab no more than the size of its map.
+    Room {
+        name: "measure",
+        imports: &["ground_truth", "labs"],
+        crates: &[],
+        may_be_unsafe: false,
+    },
+    // Knows no matrix of a lab, so that it cannot share its faults.
+    Room {
+        name: "ground_truth",
+        imports: &["scene"],
+        crates: &[],
+        may_be_unsafe: false,
     },
     Room {
         name: "labs",
@@ -74,7 +96,7 @@ const ROOMS: &[Room] = &[
 ];
 
 /// The files beside `src/main.rs` that belong to the program and not to the library.
-const PROGRAM: &[&str] = &["cli", "timings"];
+const PROGRAM: &[&str] = &["cli", "measuring", "timings"];
 
 /// The crates that only some rooms may name: the driver's calls, its contexts, and windows.
 const FENCED: &[&str] = &["glow", "glutin", "glutin_winit", "winit"];

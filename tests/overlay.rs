@@ -68,7 +68,7 @@ fn the_next_picture_is_the_same() {
                 bottom: 7,
                 size: [50, 50],
             };
-            overlay.draw_inset(gl, map.texture, [map.near, map.far], area);
+            overlay.draw_inset(gl, map.texture, [map.scale.near, map.scale.far], area);
         }
         overlay.draw_sheet(gl);
         gl::check_errors(gl, "drawing over the picture").unwrap();
@@ -88,7 +88,8 @@ fn the_inset_shows_the_map_from_near_to_far() {
     bench.picture();
     let gl = &bench.context.gl;
     let map = bench.lab.shadow_texture(1).unwrap();
-    let expected = gl::read_depths(gl, map.texture, map.size).linearised(map.near, map.far);
+    let expected = gl::read_depths(gl, map.texture, [map.scale.size; 2])
+        .linearised(map.scale.near, map.scale.far);
     let overlay = Overlay::new(gl).unwrap();
     let area = Area {
         left: 0,
@@ -104,9 +105,9 @@ fn the_inset_shows_the_map_from_near_to_far() {
         pairs.map(|(a, b)| a.0[0].abs_diff(b.0[0])).max().unwrap()
     };
     // f32 in the shader, f64 here: the last level may be rounded the other way.
-    assert!(most(&inset([map.near, map.far])) <= 1);
+    assert!(most(&inset([map.scale.near, map.scale.far])) <= 1);
     // The control: other planes are another picture.
-    assert!(most(&inset([map.near / 2.0, map.far])) > 1);
+    assert!(most(&inset([map.scale.near / 2.0, map.scale.far])) > 1);
 }
 
 /// A lab whose shaders are read again draws the same, and an error changes nothing.

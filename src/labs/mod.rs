@@ -80,9 +80,6 @@ pub trait Lab {
     /// what the ground truth sees.
     fn now(&self) -> Scene;
 
-    /// The sizes that the errors of a light's map (from 1) are told in; None without a map.
-    fn map_scale(&self, light: usize) -> Option<MapScale>;
-
     /// What the handout's shader computes at one place, step by step.
     fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation>;
 }
@@ -98,20 +95,17 @@ pub enum Show {
     },
 }
 
-/// A depth texture, with the planes of the camera that it was drawn from.
+/// A shadow map as the last frame drew it.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowTexture {
     pub texture: glow::Texture,
-    /// In texels.
-    pub size: [u32; 2],
-    pub near: f64,
-    pub far: f64,
+    pub scale: MapScale,
 }
 
-/// The sizes of the shadow map that errors are told in.
+/// The sizes of a shadow map, in which errors are told.
 #[derive(Clone, Copy, Debug)]
 pub struct MapScale {
-    /// Texels across the map.
+    /// Texels across the map, which is square.
     pub size: u32,
     /// Near and far plane of the camera that it was drawn from.
     pub near: f64,

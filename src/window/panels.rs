@@ -117,7 +117,7 @@ impl Panels {
         let text = match &map {
             Ok(map) => format!(
                 "light {light}: near {} (black), far {} (white)",
-                map.near, map.far
+                map.scale.near, map.scale.far
             ),
             Err(error) => error.to_string(),
         };
@@ -128,10 +128,10 @@ impl Panels {
             let area = Area {
                 left: size[0] - side,
                 bottom: height,
-                size: [side, side * map.size[1] / map.size[0]],
+                size: [side, side],
             };
             self.overlay
-                .draw_inset(gl, map.texture, [map.near, map.far], area);
+                .draw_inset(gl, map.texture, [map.scale.near, map.scale.far], area);
         }
         Block {
             place: [

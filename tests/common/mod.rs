@@ -75,6 +75,11 @@ impl Bench {
         gl::read_grey(&self.context.gl, self.size)
     }
 
+    /// None where the state draws no map.
+    pub fn map_scale(&self) -> Option<labs::MapScale> {
+        self.lab.shadow_texture(1).ok().map(|map| map.scale)
+    }
+
     fn draw(&mut self, show: Show) {
         self.lab.render(&self.context.gl, show).unwrap();
         gl::check_errors(&self.context.gl, "drawing").unwrap();

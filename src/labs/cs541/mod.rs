@@ -255,17 +255,15 @@ impl Lab for Cs541 {
                 "shadows=off draws no shadow map, expected shadows=on",
             ));
         }
-        let ShadowBuffer {
-            depth_texture_buffer,
-            kind,
-            ..
-        } = self.shadow_buffer;
         let Light { near, far, .. } = *self.light();
         Ok(ShadowTexture {
-            texture: depth_texture_buffer,
-            size: [kind.size; 2],
-            near,
-            far,
+            texture: self.shadow_buffer.depth_texture_buffer,
+            scale: MapScale {
+                size: self.shadow_buffer.kind.size,
+                near,
+                far,
+                bias: self.epsilon(),
+            },
         })
     }
 
@@ -278,16 +276,6 @@ impl Lab for Cs541 {
             object.spin = None;
         }
         scene
-    }
-
-    fn map_scale(&self, _light: usize) -> Option<MapScale> {
-        let Light { near, far, .. } = *self.light();
-        self.settings.switch("shadows").then(|| MapScale {
-            size: self.shadow_buffer.kind.size,
-            near,
-            far,
-            bias: self.epsilon(),
-        })
     }
 
     fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation> {
