@@ -10,6 +10,7 @@
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
 //! | [`window`] | the desktop viewer |
 //! | [`picture`] | pictures and depth maps, written to files |
+//! | [`progress`] | how far a long task has come |
 //! | [`error`] | the one error type |
 //!
 //! Imports go downward only: `headless`, `window` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
@@ -22,6 +23,7 @@ pub mod headless;
 pub mod labs;
 pub mod measure;
 pub mod picture;
+pub mod progress;
 pub mod scene;
 pub mod window;
 

@@ -10,6 +10,8 @@ use shadowlab::gl;
 use shadowlab::ground_truth::{Label, Rays, Truth};
 use shadowlab::labs::{self, MapScale, Show};
 use shadowlab::measure::Measure;
+use shadowlab::progress::Progress;
+use shadowlab::scene::texture;
 use shadowlab::{Error, Result, picture};
 
 use crate::cli::{Drawing, Running, State, check_light, print};
@@ -69,7 +71,8 @@ struct Asked {
 fn ask(running: &Running, light: usize) -> Asked {
     let start = Instant::now();
     let rays = Rays::new(&running.lab.now(), light - 1);
-    let truth = rays.truth(running.size);
+    let progress = Progress::new("casting rays", running.size[1].into());
+    let truth = rays.truth_row_by_row(running.size, || progress.add(1));
     Asked {
         rays,
         truth,
@@ -199,22 +202,17 @@ impl Running {
     }
 }
 
-/// A visibility picture from anywhere.
+/// A visibility picture from anywhere: grey, or whatever its red channel shows.
 fn reference(path: &Path, size: [u32; 2]) -> Result<GrayImage> {
-    let picture = image::open(path).map_err(|error| Error::input(path, None, error.to_string()))?;
-    let picture = picture.into_luma8();
-    let found = [picture.width(), picture.height()];
-    if found != size {
-        return Err(Error::input(
-            path,
-            None,
-            format!(
-                "{}×{} pixels, expected {}×{}",
-                found[0], found[1], size[0], size[1]
-            ),
-        ));
+    let picture = texture::load(path)?;
+    let [width, height] = [picture.width(), picture.height()];
+    if [width, height] != size {
+        let message = format!("{width}×{height} pixels, expected {}×{}", size[0], size[1]);
+        return Err(Error::input(path, None, message));
     }
-    Ok(picture)
+    Ok(GrayImage::from_fn(width, height, |x, y| {
+        image::Luma([picture.get_pixel(x, y).0[0]])
+    }))
 }
 
 /// Biases that are tried, in depth.

@@ -219,6 +219,29 @@ const WRONG: &[(&str, i32, &[&str])] = &[
         2,
         &["shadows=off", "expected shadows=on"],
     ),
+    ("measure cs541 --light 2", 2, &["--light 2", "expected 1"]),
+    ("measure cs541 -o a.jpg", 2, &["a.jpg", "ends in .png"]),
+    (
+        "measure cs541 --reference missing.png",
+        1,
+        &["missing.png", "No such file"],
+    ),
+    (
+        "measure cs541 --reference small.png",
+        1,
+        &["small.png", "4×3 pixels, expected 500×500"],
+    ),
+    (
+        "measure cs541 --reference broken/lighting.frag",
+        1,
+        &["broken/lighting.frag", "expected a PNG"],
+    ),
+    ("truth cs542", 2, &["cs542"]),
+    (
+        "truth cs541 -o missing/a.png",
+        1,
+        &["missing/a.png", "cannot write it"],
+    ),
     ("trace cs541 -o trace.txt", 2, &["-o"]),
     ("labs cs541", 2, &["cs541"]),
 ];
@@ -233,6 +256,8 @@ fn prepare(folder: &Path) {
     write("empty/notes.txt", b"");
     write("broken/lighting.frag", b"#version 330 core\nout vec4 frag_color;\nvoid main(void) {\n    frag_color = vec4(shadow_depht);\n}\n");
     write("unlinked/lighting.frag", b"#version 330 core\nin vec3 vtexture_coord;\nout vec4 frag_color;\nvoid main(void) {\n    frag_color = vtexture_coord.xyzz;\n}\n");
+    let small = image::GrayImage::new(4, 3);
+    small.save(folder.join("small.png")).unwrap();
     write("binary/lighting.frag", &[0xff, 0xfe, 0x00, 0x80]);
     std::fs::create_dir_all(folder.join("folder_for_file/lighting.frag")).unwrap();
     std::fs::create_dir_all(folder.join("folder.png")).unwrap();
@@ -377,6 +402,60 @@ fn a_students_shader_is_used() {
         picture.get_pixel(32, 1).0,
         [255, 0, 255],
         "the sky has a shader of its own"
+    );
+}
+
+/// The figures as JSON, with the mask and the mistakes as pictures; and the lab's own picture as if it came from elsewhere.
+#[test]
+fn truth_and_measure_agree_with_each_other() {
+    let folder = work_folder("measure");
+    let json = |arguments: &str| -> serde_json::Value {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let ran = shadowlab(&folder, &arguments);
+        assert!(
+            ran.status.success(),
+            "{}",
+            String::from_utf8_lossy(&ran.stderr)
+        );
+        serde_json::from_slice(&ran.stdout).unwrap()
+    };
+    let truth = json("truth cs541 --size 200x150 --json -o mask.png");
+    let measured = json("measure cs541 --size 200x150 --json -o mistakes.png");
+    for count in ["lit", "shadowed"] {
+        assert_eq!(truth[count], measured[count], "{count}");
+    }
+    let total: u64 = ["lit", "shadowed", "not_valid"]
+        .iter()
+        .map(|label| truth[*label].as_u64().unwrap())
+        .sum();
+    assert_eq!(total, 200 * 150);
+    assert_eq!(measured["false_shadow"]["interior"], 0);
+    assert!(measured["least_bias"].as_f64().unwrap() < 0.001);
+
+    let visibility = "screenshot cs541 --size 200x150 --show visibility -o visibility.png";
+    assert!(
+        shadowlab(&folder, &visibility.split(' ').collect::<Vec<_>>())
+            .status
+            .success()
+    );
+    let elsewhere = json("measure cs541 --size 200x150 --json --reference visibility.png");
+    for kind in ["false_shadow", "false_light"] {
+        assert_eq!(
+            measured[kind]["pixels"], elsewhere[kind]["pixels"],
+            "{kind}"
+        );
+    }
+    let mistakes = image::open(folder.join("mistakes.png"))
+        .unwrap()
+        .into_rgb8();
+    let red = mistakes
+        .pixels()
+        .filter(|pixel| pixel.0 == [220, 30, 30])
+        .count() as u64;
+    let wrong = &measured["false_shadow"];
+    assert_eq!(
+        red,
+        wrong["pixels"].as_u64().unwrap() + wrong["ambiguous"].as_u64().unwrap()
     );
 }
 

@@ -32,6 +32,7 @@ const ROOMS: &[Room] = &[
             "gl",
             "scene",
             "picture",
+            "progress",
             "error",
         ],
         crates: &[],
@@ -77,13 +78,19 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "scene",
-        imports: &["picture", "error"],
+        imports: &["picture", "progress", "error"],
         crates: &[],
         may_be_unsafe: false,
     },
     Room {
         name: "picture",
         imports: &["error"],
+        crates: &[],
+        may_be_unsafe: false,
+    },
+    Room {
+        name: "progress",
+        imports: &[],
         crates: &[],
         may_be_unsafe: false,
     },

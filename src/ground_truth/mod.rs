@@ -88,9 +88,18 @@ impl Rays {
 
     /// Asks for every pixel of a picture, on all cores.
     pub fn truth(&self, size: [u32; 2]) -> Truth {
+        self.truth_row_by_row(size, || ())
+    }
+
+    /// The same, and says so whenever a row is done.
+    pub fn truth_row_by_row(&self, size: [u32; 2], row_is_done: impl Fn() + Sync) -> Truth {
         let rows: Vec<Vec<Pixel>> = (0..size[1])
             .into_par_iter()
-            .map(|y| (0..size[0]).map(|x| self.pixel(size, [x, y])).collect())
+            .map(|y| {
+                let row = (0..size[0]).map(|x| self.pixel(size, [x, y])).collect();
+                row_is_done();
+                row
+            })
             .collect();
         let pixels = || rows.iter().flatten();
         Truth {

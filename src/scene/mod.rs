@@ -9,7 +9,7 @@ pub mod mesh;
 pub mod obj;
 pub mod reading;
 pub mod shapes;
-mod texture;
+pub mod texture;
 
 use std::sync::Arc;
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use image::{ImageFormat, ImageReader, Limits, RgbImage};
 
+use super::reading;
 use crate::{Error, Result};
 
 /// The largest texture that today's drivers take.
@@ -44,6 +45,15 @@ pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbImage> {
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
     Ok(reader.decode().map_err(damaged)?.into_rgb8())
+}
+
+/// A picture from a file that nobody has checked.
+pub fn load(path: &Path) -> Result<RgbImage> {
+    decode(
+        path,
+        &reading::read(path, reading::PICTURE_LIMIT)?,
+        MOST_BYTES,
+    )
 }
 
 /// What a picture takes in memory.
