@@ -1,4 +1,5 @@
-//! What the courses gave their students: shader compilation, meshes, textures, readback. And the call trace.
+//! What the courses gave their students: shader compilation, meshes, textures, readback. And what they did not: the call
+//! trace, and what the viewer draws over a picture.
 //!
 //! SAFETY of this module and the ones below it: every function takes a context that is current on the calling
 //! thread, and every pointer that GL gets comes from a slice that outlives the call.

@@ -142,16 +142,17 @@ fn look_for_program(program: &str, version: &str) -> Result<(), String> {
     }
 }
 
-/// What winit and glutin load by these names; the first of them that is missing ends the viewer. Wayland's are loaded
-/// in their place where that is the desktop, and belong to it.
-const LIBRARIES: [&str; 7] = [
+/// What winit and glutin load by these names, the first ones for X11, the last ones for Wayland.
+const LIBRARIES: [&str; 9] = [
     "libX11.so.6",
     "libX11-xcb.so.1",
     "libXcursor.so.1",
     "libXi.so.6",
-    "libxkbcommon.so.0",
     "libxkbcommon-x11.so.0",
     "libGL.so.1",
+    "libxkbcommon.so.0",
+    "libwayland-client.so.0",
+    "libwayland-egl.so.1",
 ];
 
 fn look_for_libraries() -> Result<(), String> {
@@ -174,8 +175,8 @@ fn look_for_libraries() -> Result<(), String> {
 
 // --- what to install ---
 
-/// A system's names for the packages of a driver (libEGL, Mesa's half of it, and llvmpipe), of what a window loads (the
-/// last of them is Mesa's GLX), and of the programs that the tests call.
+/// A system's names for the packages of a driver (libEGL, Mesa's half of it, and llvmpipe), of what a window loads, and
+/// of the programs that the tests call.
 #[derive(Clone, Copy)]
 struct System {
     driver: &'static [&'static str],
@@ -195,6 +196,8 @@ const DEBIAN: System = System {
         "libxkbcommon-x11-0",
         "libgl1",
         "libglx-mesa0",
+        "libwayland-client0",
+        "libwayland-egl1",
     ],
     apitrace: "apitrace",
     xvfb: "xvfb",
@@ -209,6 +212,8 @@ const FEDORA: System = System {
         "libXi",
         "libxkbcommon-x11",
         "mesa-libGL",
+        "libwayland-client",
+        "libwayland-egl",
     ],
     apitrace: "apitrace",
     xvfb: "xorg-x11-server-Xvfb",
@@ -223,6 +228,7 @@ const ARCH: System = System {
         "libxkbcommon-x11",
         "libglvnd",
         "mesa",
+        "wayland",
     ],
     apitrace: "apitrace",
     xvfb: "xorg-server-xvfb",
