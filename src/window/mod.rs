@@ -2,7 +2,8 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `app` | what happens when: events, frames, time |
+//! | `app` | from the connection to the desktop to the exit |
+//! | `viewer` | what happens when: keys and mouse, frames and time |
 //! | `canvas` | the window with its OpenGL 3.3 core context, by GLX or EGL |
 //! | `keys` | the desktop's keys and mouse as the labs know them, and the viewer's own keys |
 //! | `panels` | what stands over the picture: keys, messages, the depth map |
@@ -22,6 +23,8 @@ mod panels;
 mod shot;
 #[cfg(target_os = "linux")]
 mod text;
+#[cfg(target_os = "linux")]
+mod viewer;
 #[cfg(target_os = "linux")]
 mod watch;
 

@@ -19,10 +19,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("<PageUp> <PageDown>", "move the light up, down (along y)"),
     ("o p", "narrow, widen the field of view"),
     ("x", "look from the light, and back"),
-    (
-        "<Tab>",
-        "put the light at the eye, pointing as the eye looks",
-    ),
+    ("<Tab>", "put the light at the eye, pointing as it looks"),
     ("<Drag:12,-5>", "turn the look (left button, in pixels)"),
     ("<Wheel:1> <Wheel:-1>", "narrow, widen the field of view"),
 ];
