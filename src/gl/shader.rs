@@ -49,7 +49,8 @@ impl Shaders {
     /// The text of a shader, and the path that a message about it names.
     fn read(&self, name: &str) -> Result<Source> {
         if let Some(path) = self.students.as_ref().map(|folder| folder.join(name))
-            && path.exists()
+            // A link that leads nowhere is there, and cannot be read.
+            && path.symlink_metadata().is_ok()
         {
             let text = reading::read_text(&path, reading::TEXT_LIMIT)?;
             return Ok(Source {

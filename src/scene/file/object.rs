@@ -73,7 +73,10 @@ pub fn objects(
         let material = Material {
             diffuse: table.vector("diffuse", Kind::Color, own.diffuse)?,
             specular: table.vector("specular", Kind::Color, own.specular)?,
-            shininess: table.number("shininess", Kind::Between(0.0, 1e6), own.shininess)?,
+            // 0⁰ is undefined in GLSL.
+            shininess: table
+                .number("shininess", Kind::Between(0.0, 1e6), own.shininess)?
+                .max(1e-3),
             texture: texture.clone().or(own.texture),
         };
         objects.push(Object {

@@ -63,6 +63,11 @@ pub fn read(path: &Path, files: &Files) -> Result<Vec<Part>> {
 
 /// A model in memory, with its materials and textures from `files`.
 pub fn parse_with(path: &Path, text: &[u8], files: &Files) -> Result<Vec<Part>> {
+    // Notepad's "Unicode".
+    if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
+        let message = "found UTF-16, expected a model in ASCII or UTF-8";
+        return Err(Error::input(path, None, message));
+    }
     let mut model = Model::new(path);
     let mut progress = Progress::new(path, text.len());
     for line in lines(text) {

@@ -36,9 +36,7 @@ impl Library {
             let wrong = |message| Error::input(path, line.number, message);
             let (keyword, rest) = keyword(&line.text);
             if keyword == "newmtl" {
-                if rest.is_empty() {
-                    return Err(wrong("found nothing, expected a name".into()));
-                }
+                // Blender has written materials without a name.
                 self.keep(current.replace((rest.to_owned(), UNSAID)));
             }
             let Some((_, material)) = &mut current else {
@@ -49,8 +47,7 @@ impl Library {
                 "Ks" => material.specular = color(rest).map_err(wrong)?,
                 "Ns" => {
                     let [shininess] = numbers(rest).map_err(wrong)?;
-                    // Some programs write −1 for no highlight at all.
-                    material.shininess = shininess.max(0.0);
+                    material.shininess = shininess;
                 }
                 "map_Kd" => material.texture = texture(path, line.number, rest, files)?,
                 _ => {}
@@ -61,7 +58,12 @@ impl Library {
     }
 
     fn keep(&mut self, material: Option<(String, Material)>) {
-        if let Some((name, material)) = material {
+        if let Some((name, mut material)) = material {
+            // With 0 or −1 programs mean no highlight; as an exponent it would be one all over.
+            if material.shininess <= 0.0 {
+                material.specular = DVec3::ZERO;
+                material.shininess = UNSAID.shininess;
+            }
             self.materials.entry(name).or_insert(material);
         }
     }
@@ -80,7 +82,7 @@ fn texture(path: &Path, line: usize, rest: &str, files: &Files) -> Result<Option
     let wrong = |message| Error::input(path, line, message);
     let name = without_options(rest);
     if name.is_empty() {
-        return Err(wrong("found nothing, expected a name".to_owned()));
+        return Ok(None);
     }
     let drawn_without = |what: &str| {
         let name = quoted(name);

@@ -108,12 +108,6 @@ fn bad_models_are_told_in_one_line() {
             "newmtl red\nKd 1 0\n",
             "m.mtl:2: found \"1 0\"",
         ),
-        ("mtllib m.mtl\n", "newmtl\n", "m.mtl:1: found nothing"),
-        (
-            "mtllib m.mtl\n",
-            "newmtl a\nmap_Kd -s 1 1 1\n",
-            "m.mtl:2: found nothing",
-        ),
         (
             "mtllib m.mtl\n",
             "newmtl a\nmap_Kd m.mtl\n",
