@@ -28,7 +28,7 @@ impl Shaders {
         if let Some(folder) = students {
             let names: Vec<_> = builtin.iter().map(|(name, _)| *name).collect();
             std::fs::read_dir(folder).map_err(|cause| Error::reading(folder, cause))?;
-            if !names.iter().any(|name| folder.join(name).exists()) {
+            if !names.iter().any(|name| is_there(&folder.join(name))) {
                 return Err(Error::input(
                     folder,
                     None,
@@ -49,8 +49,7 @@ impl Shaders {
     /// The text of a shader, and the path that a message about it names.
     fn read(&self, name: &str) -> Result<Source> {
         if let Some(path) = self.students.as_ref().map(|folder| folder.join(name))
-            // A link that leads nowhere is there, and cannot be read.
-            && path.symlink_metadata().is_ok()
+            && is_there(&path)
         {
             let text = reading::read_text(&path, reading::TEXT_LIMIT)?;
             return Ok(Source {
@@ -70,6 +69,11 @@ impl Shaders {
             students: false,
         })
     }
+}
+
+/// Also of a link that leads nowhere: it is there, and cannot be read.
+fn is_there(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
 }
 
 struct Source {

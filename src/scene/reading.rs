@@ -132,8 +132,12 @@ impl<'a> Files<'a> {
     /// Files of a folder and of those in it, wherever links and `..` lead.
     pub fn within(folder: &Path) -> Result<Self> {
         // The empty path is how `parent` spells the folder that one is in.
-        let folder = Path::new(".").join(folder);
-        let folder = fs::canonicalize(&folder).map_err(|cause| Error::reading(&folder, cause))?;
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        let folder = fs::canonicalize(folder).map_err(|cause| Error::reading(folder, cause))?;
         Ok(Self::new(move |path, limit| {
             let real = fs::canonicalize(path).map_err(|cause| Error::reading(path, cause))?;
             if !real.starts_with(&folder) {

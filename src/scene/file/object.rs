@@ -151,7 +151,19 @@ fn mesh_size(table: &Table, mesh: &str) -> Result<u32> {
         "torus" => 3,
         _ => 1,
     };
-    Ok(table.number("mesh_size", Kind::Whole(least, 1000), 20.0)? as u32)
+    let size = table.number("mesh_size", Kind::Whole(least, 1000), 20.0)? as u32;
+    // Known before it is made: at most so many triangles.
+    let triangles = match mesh {
+        "teapot" => 64 * size * size,
+        _ => 4 * size * size,
+    };
+    match table.value("mesh_size") {
+        Some(value) if triangles as usize > obj::MOST_TRIANGLES => Err(value.error(format!(
+            "found a {mesh} of {triangles} triangles, expected at most {}",
+            obj::MOST_TRIANGLES
+        ))),
+        _ => Ok(size),
+    }
 }
 
 fn thickness(table: &Table) -> Result<f64> {

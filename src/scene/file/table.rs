@@ -30,7 +30,7 @@ impl<'a> Source<'a> {
             Ok(table) => Ok(table.into_inner()),
             Err(wrong) => {
                 let place = wrong.span().map_or(0, |span| span.start);
-                let message = format!("{}, expected TOML", wrong.message());
+                let message = format!("found no TOML: {}", wrong.message());
                 Err(self.wrong(place, message))
             }
         }
@@ -315,6 +315,9 @@ impl<'a> Value<'a> {
     /// The path of a file that is named relative to the scene.
     pub fn path(&self, scene: &Path) -> Result<PathBuf> {
         let name = self.text()?.replace('\\', "/");
+        if name.is_empty() {
+            return Err(self.wrong("a file's name"));
+        }
         Ok(scene.with_file_name("").join(name))
     }
 
