@@ -599,7 +599,7 @@ fn bad_places_get_one_line() {
         std::os::unix::fs::symlink(target, folder.join("shaders").join(name)).unwrap();
     }
     let large = std::fs::File::create(folder.join("large.toml")).unwrap();
-    large.set_len((64 << 20) + 1).unwrap();
+    large.set_len((4 << 20) + 1).unwrap();
     std::fs::write(folder.join("good.toml"), scene("", "", "", "")).unwrap();
     for (arguments, code, words) in [
         (
@@ -623,7 +623,7 @@ fn bad_places_get_one_line() {
         (
             "--scene large.toml",
             1,
-            &["large.toml", "larger than 64 MiB"],
+            &["large.toml", "larger than 4 MiB"],
         ),
         (
             "--scene good.toml --glsl shaders",
@@ -739,4 +739,28 @@ fn good_scenes_are_drawn() {
         assert!(output.status.success(), "{text}: {told}");
         assert_eq!(told, note, "{text}");
     }
+}
+
+/// The example of the README, as it stands there.
+#[test]
+fn the_readmes_scene_is_drawn() {
+    let folder = work_folder("readme_scene");
+    let readme = include_str!("../README.md");
+    let example = readme.split("```toml\n").nth(1).unwrap();
+    let example = example.split("```").next().unwrap();
+    std::fs::write(folder.join("my_scene.toml"), example).unwrap();
+    let call = "screenshot cs541 --scene my_scene.toml --size 100x100";
+    assert!(readme.contains("shadowlab screenshot cs541 --scene my_scene.toml"));
+    let call: Vec<&str> = call.split(' ').collect();
+    let output = shadowlab(&folder, &call);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && told.is_empty(), "{told}");
+    let picture = image::open(folder.join("cs541.png")).unwrap().into_rgb8();
+    let bluish = |pixel: &&image::Rgb<u8>| pixel.0[2] > pixel.0[0].saturating_add(40);
+    assert!(picture.pixels().filter(bluish).count() > 200, "the teapot");
+    assert_eq!(
+        picture.get_pixel(2, 2).0,
+        [26, 26, 38],
+        "the default clear colour"
+    );
 }

@@ -17,8 +17,12 @@ use super::texture;
 use crate::{Error, Result};
 
 /// The most that is read of a file, in bytes: far more than any that a person made.
+///
+/// TOML takes 80 times its size in memory while it is read, so a scene has the smallest limit; 4 MiB hold 60,000 objects.
+pub const SCENE_LIMIT: u64 = 4 << 20;
+/// Shaders and material libraries.
+pub const TEXT_LIMIT: u64 = 16 << 20;
 pub const MODEL_LIMIT: u64 = 1 << 30;
-pub const TEXT_LIMIT: u64 = 64 << 20;
 pub const PICTURE_LIMIT: u64 = 256 << 20;
 
 /// How many notes are told; a broken file could hold a million reasons.
@@ -170,11 +174,19 @@ impl<'a> Files<'a> {
 
     /// Something odd that the program goes on without.
     pub fn note(&self, place: &Error) {
+        if !self.takes_notes() {
+            return;
+        }
         let note = place.to_string();
         let mut notes = self.notes.borrow_mut();
-        if notes.len() <= MOST_NOTES && !notes.contains(&note) {
+        if !notes.contains(&note) {
             notes.push(note);
         }
+    }
+
+    /// Whether there is room for one more; what finds out more about a note need not do so in vain.
+    pub fn takes_notes(&self) -> bool {
+        self.notes.borrow().len() <= MOST_NOTES
     }
 
     pub fn notes(&self) -> Vec<String> {

@@ -23,6 +23,7 @@ cargo xtask COMMAND
   test [FILTER…]           run every test of the workspace, without a display
   soak [FRAMES]            100,000 frames in the viewer, and the memory that they leave behind
   bless [CASE…]            rewrite the golden pictures of tests/golden
+  fuzz [COUNT]             run the fuzzers with COUNT inputs for each parser (a million where none is said)
   assets                   rewrite the models, textures and scene files of assets
   help                     this text
 
@@ -64,13 +65,15 @@ fn dispatch(words: &[&str]) -> Result<ExitCode, Box<dyn Error>> {
         ["soak"] => soak("100000"),
         ["soak", frames] => soak(frames),
         ["bless", cases @ ..] => bless(cases),
+        ["fuzz"] => fuzz("1000000"),
+        ["fuzz", count] => fuzz(count),
         ["assets"] => {
             assets::write_all(&root().join("assets"))?;
             Ok(ExitCode::SUCCESS)
         }
         // Not in the help: `setup` asks a new process what drivers there are.
         [setup::PROBE, need] => Ok(setup::probe(need)),
-        ["soak", _, extra, ..] | ["help" | "--help" | "-h" | "assets", extra, ..] => {
+        ["soak" | "fuzz", _, extra, ..] | ["help" | "--help" | "-h" | "assets", extra, ..] => {
             Err(Usage(format!("{}: unexpected argument \"{extra}\"", words[0])).into())
         }
         [command, ..] => Err(Usage(format!("there is no command \"{command}\"")).into()),
@@ -132,6 +135,22 @@ fn soak(frames: &str) -> Result<ExitCode, Box<dyn Error>> {
         cargo("test")
             .args(["--test", "soak", "--", "--ignored", "--nocapture"])
             .env("SHADOWLAB_SOAK_FRAMES", frames),
+    )
+}
+
+fn fuzz(count: &str) -> Result<ExitCode, Box<dyn Error>> {
+    if count.parse::<u64>().is_err() {
+        return Err(Usage(format!(
+            "fuzz: found \"{count}\", expected a number of inputs"
+        ))
+        .into());
+    }
+    exit_code(
+        cargo("test")
+            // One after the other: the memory that is printed is the whole program's.
+            .args(["--test", "fuzz", "--"])
+            .args(["--nocapture", "--test-threads=1"])
+            .env("SHADOWLAB_FUZZ", count),
     )
 }
 
@@ -218,6 +237,7 @@ mod tests {
             &["soak", "many"],
             &["soak", "1000"],
             &["soak", "2000", "more"],
+            &["fuzz", "many"],
         ] {
             assert!(dispatch(words).unwrap_err().is::<Usage>(), "{words:?}");
         }

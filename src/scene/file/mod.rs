@@ -50,7 +50,7 @@ use glam::DVec3;
 
 use super::Scene;
 use super::obj::MOST_TRIANGLES;
-use super::reading::{Files, TEXT_LIMIT};
+use super::reading::{Files, SCENE_LIMIT};
 use crate::{Error, Result};
 use object::Meshes;
 use table::{Kind, Source, Table};
@@ -66,7 +66,7 @@ pub fn load(path: &Path, allow_outside: bool) -> Result<Scene> {
         Files::within(path.parent().unwrap_or(Path::new("")))?
     };
     // The scene itself may be a link to somewhere else: it is what the user asked for.
-    let text = super::reading::read_text(path, TEXT_LIMIT)?;
+    let text = super::reading::read_text(path, SCENE_LIMIT)?;
     let scene = parse(path, &text, &files)?;
     files.print_notes();
     Ok(scene)

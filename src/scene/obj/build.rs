@@ -4,15 +4,16 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::{Corner, Face, Model, NONE, Part, polygon};
+use super::{Corner, Model, NONE, Part, polygon};
 use crate::scene::Mesh;
 use crate::scene::reading::Files;
 
 /// A model with more parts than this is drawn by material alone: some programs name every single face.
-const MOST_NAMED_PARTS: usize = 4096;
+pub const MOST_NAMED_PARTS: usize = 4096;
 
 /// The faces with one name and one material, in the order in which these came.
 pub fn parts(model: &Model, files: &Files) -> Vec<Part> {
+    let materials = model.resolved_materials(files);
     let mut numbers = HashMap::new();
     let mut parts: Vec<(Part, Vertices)> = Vec::new();
     let mut builder = Builder::default();
@@ -20,12 +21,16 @@ pub fn parts(model: &Model, files: &Files) -> Vec<Part> {
     for face in &model.faces {
         let corners = &model.corners[start..face.end];
         start = face.end;
-        let number = part_number(face, &mut numbers, parts.len());
+        let material = materials.get(face.material as usize).copied().flatten();
+        // What is not there is no material of its own.
+        let material_number = material.map_or(NONE, |_| face.material);
+        let named = (face.name, material_number);
+        let number = part_number(named, &mut numbers, parts.len());
         if number == parts.len() {
             let part = Part {
                 name: model.names[face.name as usize].clone(),
                 mesh: Mesh::default(),
-                material: model.material(face.material, files),
+                material: material.cloned(),
             };
             parts.push((part, Vertices::new()));
         }
@@ -38,8 +43,8 @@ pub fn parts(model: &Model, files: &Files) -> Vec<Part> {
 /// The vertices that a part has already, by the indices of their corner.
 type Vertices = HashMap<Corner, u32>;
 
-fn part_number(face: &Face, numbers: &mut HashMap<(u32, u32), usize>, count: usize) -> usize {
-    let named = (face.name, face.material);
+/// The part of a name and a material, by number; `count` if it is a new one.
+fn part_number(named: (u32, u32), numbers: &mut HashMap<(u32, u32), usize>, count: usize) -> usize {
     if let Some(number) = numbers.get(&named) {
         return *number;
     }
@@ -47,7 +52,7 @@ fn part_number(face: &Face, numbers: &mut HashMap<(u32, u32), usize>, count: usi
         numbers.insert(named, count);
         return count;
     }
-    *numbers.entry((NONE, face.material)).or_insert(count)
+    *numbers.entry((NONE, named.1)).or_insert(count)
 }
 
 /// Scratch space for one face after the other.

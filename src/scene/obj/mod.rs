@@ -113,13 +113,16 @@ struct Model<'a> {
     triangles: usize,
     /// For positions, texture coordinates and normals: the largest index that was used before its line came.
     ahead: [Option<Ahead>; 3],
-    /// Each name of an object or group, and each of a material, with the line that used it first.
+    /// Each name of an object or group, and each of a material with the line that used it first, if it has faces.
     names: Vec<String>,
     materials: Vec<Used>,
     material_numbers: HashMap<String, u32>,
     library: mtl::Library,
+    /// What the next face belongs to: numbers, and names that have none yet because they have no face.
     name: u32,
+    new_name: Option<String>,
     material: u32,
+    new_material: Option<Used>,
 }
 
 /// Indices from 0 into positions, texture coordinates and normals; [`NONE`] where the corner has none.
@@ -160,7 +163,9 @@ impl<'a> Model<'a> {
             material_numbers: HashMap::new(),
             library: mtl::Library::default(),
             name: 0,
+            new_name: None,
             material: NONE,
+            new_material: None,
         }
     }
 
@@ -178,11 +183,11 @@ impl<'a> Model<'a> {
             "vt" => push(&mut self.texture_coords, texture_coord(rest)?)?,
             // `fo` is how the format's first version spelt it.
             "f" | "fo" => self.face(line, rest)?,
-            "o" | "g" => {
-                self.name = self.names.len() as u32;
-                self.names.push(rest.to_owned());
+            "o" | "g" => self.new_name = Some(rest.to_owned()),
+            "usemtl" => {
+                let name = rest.to_owned();
+                self.new_material = Some(Used { name, line });
             }
-            "usemtl" => self.material = self.used(rest, line),
             "mtllib" => self
                 .libraries(line, rest, files)
                 .map_err(Problem::Elsewhere)?,
@@ -193,6 +198,7 @@ impl<'a> Model<'a> {
     }
 
     fn face(&mut self, line: usize, rest: &str) -> Checked<()> {
+        self.number_names()?;
         let start = self.corners.len();
         for word in rest.split_ascii_whitespace() {
             if word.starts_with('#') {
@@ -200,6 +206,12 @@ impl<'a> Model<'a> {
             }
             let corner = self.corner(line, word)?;
             self.corners.push(corner);
+            let triangles = (self.corners.len() - start).saturating_sub(2);
+            if self.triangles + triangles > MOST_TRIANGLES {
+                return Err(format!(
+                    "found more than {MOST_TRIANGLES} triangles, expected at most that"
+                ));
+            }
         }
         let count = self.corners.len() - start;
         if count < 3 {
@@ -209,11 +221,6 @@ impl<'a> Model<'a> {
             ));
         }
         self.triangles += count - 2;
-        if self.triangles > MOST_TRIANGLES {
-            return Err(format!(
-                "found more than {MOST_TRIANGLES} triangles, expected at most that"
-            ));
-        }
         self.faces.push(Face {
             end: self.corners.len(),
             name: self.name,
@@ -277,56 +284,64 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    fn used(&mut self, name: &str, line: usize) -> u32 {
-        if let Some(number) = self.material_numbers.get(name) {
-            return *number;
+    /// Numbers for the names that the face at hand is the first to belong to.
+    fn number_names(&mut self) -> Checked<()> {
+        if let Some(name) = self.new_name.take() {
+            // Beyond that, parts have no names.
+            self.name = 0;
+            if self.names.len() < build::MOST_NAMED_PARTS {
+                self.name = self.names.len() as u32;
+                self.names.push(name);
+            }
         }
-        let number = self.materials.len() as u32;
-        self.material_numbers.insert(name.to_owned(), number);
-        self.materials.push(Used {
-            name: name.to_owned(),
-            line,
-        });
-        number
-    }
-
-    /// One name that may have spaces in it, or several names with spaces between them.
-    fn libraries(&mut self, line: usize, rest: &str, files: &Files) -> Result<()> {
-        let whole = beside(self.path, rest);
-        match self.library.read(&whole, files) {
-            Err(error) if error.is_missing() => {}
-            done => return done,
-        }
-        for name in rest.split_whitespace() {
-            match self.library.read(&beside(self.path, name), files) {
-                Err(error) if error.is_missing() => files.note(&Error::input(
-                    self.path,
-                    line,
-                    format!(
-                        "found no file {}, drawn without its materials",
-                        quoted(name)
-                    ),
-                )),
-                done => done?,
+        if let Some(used) = self.new_material.take() {
+            let known = self.material_numbers.get(&used.name);
+            self.material = known.copied().unwrap_or(self.materials.len() as u32);
+            if known.is_none() {
+                if self.materials.len() == mtl::MOST_MATERIALS {
+                    let most = mtl::MOST_MATERIALS;
+                    return Err(format!(
+                        "found more than {most} materials, expected at most that"
+                    ));
+                }
+                self.material_numbers
+                    .insert(used.name.clone(), self.material);
+                self.materials.push(used);
             }
         }
         Ok(())
     }
 
-    /// The material of a number, noted if there is none.
-    fn material(&self, number: u32, files: &Files) -> Option<Material> {
-        let used = self.materials.get(number as usize)?;
-        let found = self.library.materials.get(&used.name);
-        if found.is_none() {
-            let names = self.library.materials.keys().map(String::as_str);
-            let hint = did_you_mean(&used.name, names);
-            let message = format!(
-                "found no material {}{hint}, drawn with the default",
-                quoted(&used.name)
-            );
-            files.note(&Error::input(self.path, used.line, message));
+    /// One name that may have spaces in it, or several names with spaces between them.
+    fn libraries(&mut self, line: usize, rest: &str, files: &Files) -> Result<()> {
+        if self.library.read(&beside(self.path, rest), files)? {
+            return Ok(());
         }
-        found.cloned()
+        let several = rest.split_whitespace().nth(1).is_some();
+        for name in rest.split_whitespace() {
+            if !several || !self.library.read(&beside(self.path, name), files)? {
+                let name = quoted(name);
+                let message = format!("found no file {name}, drawn without its materials");
+                files.note(&Error::input(self.path, line, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// The materials that faces use, by number; a note for each that there is not.
+    fn resolved_materials(&self, files: &Files) -> Vec<Option<&Material>> {
+        let resolve = |used: &Used| {
+            let found = self.library.materials.get(&used.name);
+            if found.is_none() && files.takes_notes() {
+                let names = self.library.materials.keys().map(String::as_str);
+                let hint = did_you_mean(&used.name, names);
+                let name = quoted(&used.name);
+                let message = format!("found no material {name}{hint}, drawn with the default");
+                files.note(&Error::input(self.path, used.line, message));
+            }
+            found
+        };
+        self.materials.iter().map(resolve).collect()
     }
 }
 

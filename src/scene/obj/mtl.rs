@@ -1,7 +1,7 @@
 //! Material libraries: the lines that a [`Material`] has a place for.
 
-use std::collections::HashMap;
-use std::path::Path;
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -18,7 +18,12 @@ use crate::{Error, Result};
 #[derive(Default)]
 pub struct Library {
     pub materials: HashMap<String, Material>,
+    asked_for: HashSet<PathBuf>,
 }
+
+/// Limits that bound time and memory: a model of a gigabyte could name the same library a hundred million times.
+const MOST_LIBRARIES: usize = 100;
+pub const MOST_MATERIALS: usize = 65_536;
 
 /// What a material has where its lines say nothing.
 const UNSAID: Material = Material {
@@ -29,12 +34,34 @@ const UNSAID: Material = Material {
 };
 
 impl Library {
-    pub fn read(&mut self, path: &Path, files: &Files) -> Result<()> {
+    /// Whether there is, or was, anything to read.
+    pub fn read(&mut self, path: &Path, files: &Files) -> Result<bool> {
+        if self.asked_for.contains(path) {
+            return Ok(true);
+        }
+        if self.asked_for.len() == MOST_LIBRARIES {
+            let message =
+                format!("is one library more than {MOST_LIBRARIES}, expected at most that");
+            return Err(Error::input(path, None, message));
+        }
+        self.asked_for.insert(path.to_owned());
+        match self.read_lines(path, files) {
+            Err(error) if error.is_missing() => Ok(false),
+            done => done.map(|()| true),
+        }
+    }
+
+    fn read_lines(&mut self, path: &Path, files: &Files) -> Result<()> {
         let text = files.read(path, TEXT_LIMIT)?;
         let mut current = None;
         for line in lines(&text) {
             let wrong = |message| Error::input(path, line.number, message);
             let (keyword, rest) = keyword(&line.text);
+            if self.materials.len() == MOST_MATERIALS {
+                return Err(wrong(format!(
+                    "found more than {MOST_MATERIALS} materials, expected at most that"
+                )));
+            }
             if keyword == "newmtl" {
                 // Blender has written materials without a name.
                 self.keep(current.replace((rest.to_owned(), UNSAID)));

@@ -208,7 +208,7 @@ fn a_model_of_many_names_has_few_parts() {
     let names = (0..10_000).map(|n| format!("g face{n}\nf 1 2 3\n"));
     let obj = format!("{TRIANGLE}{}", names.collect::<String>());
     let (parts, _) = noted(&obj, "");
-    assert_eq!(parts.len(), 4097);
+    assert_eq!(parts.len(), 4096);
     assert_eq!(
         parts
             .iter()
