@@ -156,7 +156,7 @@ fn watch(parser: &Parser, current: &AtomicU64, done: &AtomicBool) {
         let number = current.load(Ordering::Relaxed);
         if number != last.0 {
             last = (number, Instant::now());
-        } else if last.1.elapsed() > 4 * parser.limits.time {
+        } else if last.1.elapsed() > 20 * parser.limits.time {
             eprintln!("hangs: {}", shown(parser, number));
             std::process::exit(1);
         }
