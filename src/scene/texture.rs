@@ -60,3 +60,62 @@ pub fn load(path: &Path) -> Result<RgbImage> {
 pub fn bytes(picture: &RgbImage) -> u64 {
     picture.as_raw().len() as u64
 }
+
+#[cfg(test)]
+mod tests {
+    use image::{DynamicImage, ExtendedColorType};
+
+    use super::*;
+
+    fn written(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn every_kind_becomes_rgb() {
+        let grey = DynamicImage::from(image::GrayImage::from_pixel(3, 2, image::Luma([200])));
+        let decoded = |bytes: &[u8]| decode(Path::new("a.png"), bytes, MOST_BYTES).unwrap();
+        for kind in [
+            grey.clone(),
+            grey.to_luma_alpha8().into(),
+            grey.to_luma16().into(),
+            grey.to_luma_alpha16().into(),
+            grey.to_rgb8().into(),
+            grey.to_rgba8().into(),
+            grey.to_rgb16().into(),
+            grey.to_rgba16().into(),
+        ] {
+            let picture = decoded(&written(&kind, ImageFormat::Png));
+            let kind = ExtendedColorType::from(kind.color());
+            assert_eq!(picture.dimensions(), (3, 2), "{kind:?}");
+            assert!(picture.iter().all(|byte| *byte == 200), "{kind:?}");
+        }
+        for kind in [grey.clone(), grey.to_rgb8().into()] {
+            let picture = decoded(&written(&kind, ImageFormat::Jpeg));
+            assert!(picture.iter().all(|byte| byte.abs_diff(200) <= 2));
+        }
+    }
+
+    #[test]
+    fn a_palette_becomes_rgb() {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(vec![1, 2, 3, 40, 50, 60]);
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_image_data(&[1, 0]).unwrap();
+        writer.finish().unwrap();
+        let picture = decode(Path::new("a.png"), &bytes, MOST_BYTES).unwrap();
+        assert_eq!(picture.as_raw(), &[40, 50, 60, 1, 2, 3]);
+    }
+
+    #[test]
+    fn pictures_have_room_in_common() {
+        let bytes = written(&DynamicImage::new_rgb8(10, 10), ImageFormat::Png);
+        assert!(decode(Path::new("a.png"), &bytes, 300).is_ok());
+        let error = decode(Path::new("a.png"), &bytes, 299).unwrap_err();
+        assert!(error.to_string().contains("1024 MiB"), "{error}");
+    }
+}

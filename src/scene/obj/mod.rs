@@ -348,7 +348,7 @@ impl<'a> Model<'a> {
 fn push<T>(list: &mut Vec<T>, value: T) -> Checked<()> {
     if list.len() == MOST_VERTICES {
         return Err(format!(
-            "found more than {MOST_VERTICES} of them, expected at most that"
+            "found more than {MOST_VERTICES} lines of this kind, expected at most that"
         ));
     }
     list.push(value);
