@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::table::{Either, Kind, SHORTEST, Table};
+use super::numbers::Kind;
+use super::table::{Either, SHORTEST, Table};
 use crate::Result;
 use crate::scene::{Camera, Fov};
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::table::{Either, Kind, SHORTEST, Table, Value};
+use super::numbers::Kind;
+use super::table::{Either, SHORTEST, Table, Value};
 use crate::Result;
 use crate::scene::camera::{up_for, view};
 use crate::scene::{Beam, Light, LightKind, Object};

@@ -41,6 +41,7 @@
 
 mod camera;
 mod light;
+mod numbers;
 mod object;
 mod table;
 
@@ -52,8 +53,9 @@ use super::Scene;
 use super::obj::MOST_TRIANGLES;
 use super::reading::{Files, SCENE_LIMIT};
 use crate::{Error, Result};
+use numbers::Kind;
 use object::Meshes;
-use table::{Kind, Source, Table};
+use table::{Source, Table};
 
 /// Each object is a draw call.
 const MOST_OBJECTS: usize = 65_536;

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use super::table::{Kind, Table, Value};
+use super::numbers::Kind;
+use super::table::{Table, Value};
 use crate::Result;
 use crate::error::did_you_mean;
 use crate::scene::reading::Files;

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::{Corner, Model, NONE, Part, polygon};
+use super::model::{Corner, Model, NONE};
+use super::{Part, polygon};
 use crate::scene::Mesh;
 use crate::scene::reading::Files;
 

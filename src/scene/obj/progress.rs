@@ -17,7 +17,7 @@ pub struct Progress<'a> {
     total: usize,
     next_look: usize,
     start: Instant,
-    shown: bool,
+    shown: Option<usize>,
 }
 
 impl<'a> Progress<'a> {
@@ -27,7 +27,7 @@ impl<'a> Progress<'a> {
             total,
             next_look: BYTES_BETWEEN_LOOKS,
             start: Instant::now(),
-            shown: false,
+            shown: None,
         }
     }
 
@@ -39,20 +39,22 @@ impl<'a> Progress<'a> {
         let mut terminal = std::io::stderr();
         if self.start.elapsed() > PATIENCE && terminal.is_terminal() {
             let percent = 100 * bytes / self.total;
+            if self.shown.replace(percent) == Some(percent) {
+                return;
+            }
             // Where standard error cannot be written, there is nobody to tell.
             let _ = write!(
                 terminal,
                 "\r{}: {percent} %",
                 one_line(&self.path.display().to_string())
             );
-            self.shown = true;
         }
     }
 }
 
 impl Drop for Progress<'_> {
     fn drop(&mut self) {
-        if self.shown {
+        if self.shown.is_some() {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }
     }

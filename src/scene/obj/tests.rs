@@ -1,5 +1,7 @@
 use std::io;
 
+use glam::{DVec2, DVec3};
+
 use super::*;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
