@@ -13,6 +13,7 @@ mod mutate;
 use std::io;
 use std::path::Path;
 use std::sync::LazyLock;
+use std::time::Duration;
 
 use harness::{Limits, Parser, Verdict, fuzz};
 use shadowlab::labs::parse_keys;
@@ -256,10 +257,10 @@ fn scenes() {
         parse: parse_scene,
         seeds: SCENE_SEEDS,
         words: SCENE_WORDS,
-        // A mesh_size may come out large.
+        // A mesh_size may come out large all the same.
         limits: Limits {
             bytes: 1 << 30,
-            ..Limits::default()
+            time: Duration::from_secs(10),
         },
     });
 }

@@ -2,7 +2,7 @@
 
 use crate::common::Random;
 
-/// What stands in for a number.
+/// What stands in for a number. No whole numbers that make a mesh of millions of triangles: those take their time.
 const EXTREMES: &[&str] = &[
     "0",
     "-0",
@@ -19,8 +19,8 @@ const EXTREMES: &[&str] = &[
     "-inf",
     "inf",
     "0.01",
-    "179",
-    "180",
+    "178.5",
+    "180.5",
     "1e12",
     "-1e12",
     "1e13",
