@@ -208,13 +208,14 @@ pub struct Running {
     pub context: Headless,
     pub name: &'static str,
     pub size: [u32; 2],
+    // Last: it counts their end, too.
     timings: Timings,
 }
 
 impl State {
     /// `first` are settings of the command's own, which the user's `--set` may overrule.
     pub fn start(&self, drawing: &Drawing, first: &[&str], record: bool) -> Result<Running> {
-        let mut timings = Timings::new();
+        let mut timings = Timings::new(drawing.timings);
         let handout = labs::find(&self.lab)?;
         parse_keys(&self.keys)?;
         // A scene file says the size that the context must have, so it goes first.
@@ -369,9 +370,6 @@ impl Screenshot {
         running.draw(self.drawing.frames, show)?;
         running.write(self.show, self.light, &output)?;
         running.timings.lap("file");
-        if self.drawing.timings {
-            eprint!("{}", running.timings);
-        }
         print(&format!("{}\n", output.display()))
     }
 }
@@ -383,19 +381,19 @@ impl Running {
         match shown {
             Shown::Picture => {
                 let pixels = gl::read_rgb(gl, self.size);
-                self.timings.lap("first frame");
+                self.timings.lap("frames");
                 picture::write_rgb(output, &pixels, &notes)
             }
             Shown::Visibility => {
                 let pixels = gl::read_grey(gl, self.size);
-                self.timings.lap("first frame");
+                self.timings.lap("frames");
                 picture::write_grey(output, &pixels, &notes)
             }
             Shown::ShadowMap | Shown::DepthRaw => {
                 let map = self.lab.shadow_texture(light)?;
                 let scale = map.scale;
                 let depths = gl::read_depths(gl, map.texture, [scale.size; 2]);
-                self.timings.lap("first frame");
+                self.timings.lap("frames");
                 if shown == Shown::DepthRaw {
                     return picture::write_depths(output, &depths, &notes);
                 }
@@ -412,6 +410,7 @@ impl Trace {
             .state
             .start(&self.drawing, &["redraw=every_frame"], true)?;
         running.draw(self.drawing.frames, Show::Picture)?;
+        running.timings.lap("frames");
         print(&trace::to_c(&trace::take()))
     }
 }
@@ -426,6 +425,7 @@ impl Explain {
         let mut running = self.state.start(&self.drawing, &[], false)?;
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running.lab.explain(&running.context.gl, probe)?;
+        running.timings.lap("frames");
         print(&explanation.to_string())
     }
 }
