@@ -18,6 +18,8 @@ use crate::timings::Timings;
 
 /// The step of time between the frames of --frames, in seconds.
 const FRAME: f64 = 1.0 / 60.0;
+/// The most that --time takes, in seconds.
+const MOST_TIME: f64 = 3e10;
 
 #[derive(Parser)]
 #[command(
@@ -499,8 +501,9 @@ fn parse_size(text: &str) -> std::result::Result<[u32; 2], String> {
 
 fn parse_time(text: &str) -> std::result::Result<f64, String> {
     let time: Option<f64> = text.parse().ok();
-    time.filter(|time| time.is_finite() && *time >= 0.0)
-        .ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
+    // A NaN is in no range. In a thousand years a turn still has a millisecond's precision.
+    time.filter(|time| (0.0..=MOST_TIME).contains(time))
+        .ok_or_else(|| format!("expected a number of seconds, 0 to {MOST_TIME}"))
 }
 
 fn parse_numbers<T: FromStr + Into<f64> + Copy, const N: usize>(
