@@ -7,7 +7,7 @@ use glam::DVec3;
 use image::{GrayImage, Rgb, RgbImage};
 use serde_json::{Value, json};
 
-use crate::ground_truth::{Hit, Label, Ray, Rays, Truth};
+use crate::ground_truth::{Label, Ray, Rays, Truth};
 use crate::labs::MapScale;
 
 /// A pixel counts as dark below this, of 255.
@@ -245,8 +245,9 @@ impl<'a> Measure<'a> {
 
     /// The widest strip of false light that begins where a caster touches the receiver.
     ///
-    /// A strip is a connected set of falsely lit pixels of which one is within a texel of the caster; its width is the
-    /// largest distance of its points from the caster that ought to shadow them.
+    /// A strip is a connected set of falsely lit pixels of which one is at the caster: nearer than a texel, or than the
+    /// next pixel but one, whichever is more. Its width is the largest distance of its points from the caster that ought
+    /// to shadow them.
     fn contact_gap(&self, verdicts: &[Verdict], map: Option<&MapScale>) -> Option<ContactGap> {
         let wrong = |i: usize| matches!(verdicts[i], Verdict::FalseLight(place) if place != Place::Ambiguous);
         let mut visited = vec![false; verdicts.len()];
@@ -256,20 +257,20 @@ impl<'a> Measure<'a> {
                 continue;
             }
             let strip = self.connected(start, &wrong, &mut visited);
-            let points = strip.iter().filter_map(|i| self.distance_to_caster(*i));
-            let points: Vec<(f64, DVec3)> = points.collect();
-            // Without a map there is no texel to measure by: a pixel of the strip must touch an edge then.
-            let touches = match map {
-                Some(map) => points.iter().any(|(distance, point)| {
-                    self.texel_at(*point, map).is_some_and(|t| *distance < t)
-                }),
-                None => strip.iter().any(|i| self.edge1[*i]),
+            let distances = strip
+                .iter()
+                .filter_map(|i| Some((*i, self.distance_to_caster(*i)?)));
+            let distances: Vec<(usize, f64)> = distances.collect();
+            let at_caster = |(i, distance): &(usize, f64)| {
+                let texel = map.and_then(|map| self.texel_at(self.truth.seen[*i]?.1, map));
+                *distance < texel.unwrap_or(0.0).max(1.5 * self.pixel_width(*i))
             };
-            let farthest = points.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-            if let (true, Some((world, point))) = (touches, farthest)
+            let farthest = distances.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((i, world)) = farthest
                 && widest.is_none_or(|widest| *world > widest.world)
+                && distances.iter().any(at_caster)
             {
-                let texel = map.and_then(|map| self.texel_at(*point, map));
+                let texel = map.and_then(|map| self.texel_at(self.truth.seen[*i]?.1, map));
                 widest = Some(ContactGap {
                     world: *world,
                     texels: texel.map(|texel| world / texel),
@@ -277,6 +278,29 @@ impl<'a> Measure<'a> {
             }
         }
         widest
+    }
+
+    /// How far a pixel's point is from those of the four pixels beside it, on the same object.
+    fn pixel_width(&self, i: usize) -> f64 {
+        let [width, height] = self.truth.size.map(|n| n as usize);
+        let (x, y) = (i % width, i / width);
+        let object = |seen: (u32, DVec3)| self.rays.objects[seen.0 as usize];
+        let beside = [
+            (x > 0).then(|| i - 1),
+            (x + 1 < width).then(|| i + 1),
+            (y > 0).then(|| i - width),
+            (y + 1 < height).then(|| i + width),
+        ];
+        let own = self.truth.seen[i];
+        let others = beside
+            .into_iter()
+            .flatten()
+            .filter_map(|i| self.truth.seen[i]);
+        let distances = others.filter_map(|other| {
+            let own = own?;
+            (object(own) == object(other)).then(|| own.1.distance(other.1))
+        });
+        distances.fold(0.0, f64::max)
     }
 
     /// The pixels that hang together with `start`, in eight directions.
@@ -306,18 +330,16 @@ impl<'a> Measure<'a> {
         found
     }
 
-    /// How far a pixel's point is from the object that stands between it and the light, and the point.
-    fn distance_to_caster(&self, i: usize) -> Option<(f64, DVec3)> {
+    /// How far a pixel's point is from the object that stands between it and the light.
+    fn distance_to_caster(&self, i: usize) -> Option<f64> {
         let (triangle, point) = self.truth.seen[i]?;
-        let Hit {
-            triangle: caster, ..
-        } = self.rays.nearest_blocker(triangle, point)?;
+        let caster = self.rays.nearest_blocker(triangle, point)?.triangle;
         let object = self.rays.objects[caster as usize];
-        let of_object = (0..self.rays.objects.len()).filter(|t| self.rays.objects[*t] == object);
-        let distances = of_object
-            .filter(|t| *t != triangle as usize)
-            .map(|t| distance_to_triangle(point, self.rays.surfaces.triangle(t as u32)));
-        Some((distances.fold(f64::INFINITY, f64::min), point))
+        let of_object = (0..self.rays.objects.len() as u32)
+            .filter(|t| self.rays.objects[*t as usize] == object && *t != triangle);
+        let distances =
+            of_object.map(|t| distance_to_triangle(point, self.rays.surfaces.triangle(t)));
+        Some(distances.fold(f64::INFINITY, f64::min))
     }
 
     fn picture(&self, verdicts: &[Verdict]) -> RgbImage {

@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use common::{Bench, Random, differing};
@@ -11,7 +12,7 @@ use shadowlab::ground_truth::{AreaLight, Label, Rays, Truth};
 use shadowlab::labs;
 use shadowlab::measure::Measure;
 use shadowlab::scene::{
-    Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, rotate, shapes,
+    self, Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, rotate, shapes,
 };
 
 const SIZE: [u32; 2] = [320, 240];
@@ -92,8 +93,13 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         cone: 60.0,
         beam: Beam::Rectangular,
     };
+    let five_shapes = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/five_shapes.toml");
     vec![
         ("cs541", default_scene()),
+        (
+            "five shapes",
+            scene::file::load(&five_shapes, false).unwrap(),
+        ),
         ("spot", floor_with(vec![sphere(), cube()], SPOT)),
         (
             "rectangular",
@@ -451,6 +457,71 @@ fn the_labs_picture_scores_as_it_should() {
         none.shadowed,
         "{none}"
     );
+}
+
+/// Behind a wall, with its back face in the map, the floor is lit as far as the bias reaches: a length that can be told.
+#[test]
+fn the_contact_gap_of_a_wall_is_the_closed_form() {
+    let kind = LightKind::Spot {
+        cone: 60.0,
+        beam: Beam::Rectangular,
+    };
+    let wall =
+        DMat4::from_translation(dvec3(-0.25, 1.0, 0.0)) * DMat4::from_scale(dvec3(0.5, 2.0, 4.0));
+    let mut scene = floor_with(vec![(shapes::cube(), wall)], kind);
+    // The light is to the left of the wall, the camera to the right: the shadow and its gap are in full view.
+    let Light {
+        position,
+        direction,
+        near,
+        far,
+        ..
+    } = &mut scene.lights[0];
+    (*position, *direction) = (dvec3(-4.0, 6.0, 0.0), dvec3(4.5, -5.5, 0.0));
+    let (light, axis, near, far) = (*position, direction.normalize(), *near, *far);
+    scene.camera.eye = dvec3(4.0, 4.0, 0.0);
+    scene.camera.look = dvec3(-4.0, -4.0, 0.0);
+
+    let depth = |point: DVec3| {
+        let distance = (point - light).dot(axis);
+        far / (far - near) * (1.0 - near / distance)
+    };
+    for bias in [0.002, 0.004, 0.008] {
+        // On the floor at x, behind the wall's foot at x = 0; the ray to the light meets the wall's back at x = 0.
+        let is_lit = |x: f64| {
+            let foot = dvec3(x, 0.0, 0.0);
+            let towards = light - foot;
+            let back = foot + towards * (x / (x - light.x));
+            depth(foot) - bias < depth(back)
+        };
+        let expected = (0..20_000)
+            .map(|i| f64::from(i) / 20_000.0)
+            .take_while(|x| is_lit(*x))
+            .last()
+            .unwrap();
+
+        let settings = [
+            "remedy=both",
+            &format!("epsilon={bias}"),
+            "map_size=4096",
+            "filter=nearest",
+        ];
+        let mut bench = Bench::with_scene("cs541", scene.clone(), [600, 600], &settings);
+        let visibility = bench.visibility();
+        let rays = Rays::new(&bench.lab.now(), 0);
+        let truth = rays.truth([600, 600]);
+        let figures = Measure::new(&rays, &truth)
+            .measure(&visibility, bench.map_scale().as_ref())
+            .0;
+        let gap = figures.contact_gap.expect("a gap").world;
+        // A pixel is 0.01 wide there, a texel 0.002. Along the wall the gap is a little wider than in the middle.
+        assert!(
+            (gap - expected).abs() < 0.012 + 0.05 * expected,
+            "bias {bias}: {gap}, expected {expected}\n{figures}"
+        );
+        assert!(expected > 0.03, "{expected}");
+        println!("bias {bias}: {gap:.4}, expected {expected:.4}");
+    }
 }
 
 #[test]
