@@ -1,10 +1,14 @@
 //! Every asset is made here, from formulas: the same on every run, and nobody else's work.
 
+mod build;
+mod csci3260;
 mod lighthouse;
+mod paint;
 mod textures;
 
 use std::path::Path;
 
+use image::RgbImage;
 use shadowlab::picture::{write_rgb, write_whole};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -12,19 +16,27 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 /// Writes all pictures and models, and the README that says where each comes from.
 pub fn write_all(dir: &Path) -> Outcome {
     std::fs::create_dir_all(dir)?;
-    let pictures = [
-        ("floor.png", textures::floor()),
-        ("sky.png", textures::sky()),
-        ("painting.png", textures::painting()),
-        ("crate.png", textures::wooden_crate()),
-        ("lighthouse.png", textures::lighthouse()),
-    ];
-    for (name, picture) in &pictures {
-        write_rgb(&dir.join(name), picture, &[])?;
-    }
+    write_pictures(
+        dir,
+        &[
+            ("floor.png", textures::floor()),
+            ("sky.png", textures::sky()),
+            ("painting.png", textures::painting()),
+            ("crate.png", textures::wooden_crate()),
+            ("lighthouse.png", textures::lighthouse()),
+        ],
+    )?;
     write_text(&dir.join("lighthouse.obj"), &lighthouse::obj())?;
     write_text(&dir.join("lighthouse.mtl"), lighthouse::MTL)?;
+    csci3260::write(&dir.join("csci3260"))?;
     write_text(&dir.join("README.md"), README)
+}
+
+fn write_pictures(dir: &Path, pictures: &[(&str, RgbImage)]) -> Outcome {
+    for (name, picture) in pictures {
+        write_rgb(&dir.join(name), picture, &[])?;
+    }
+    Ok(())
 }
 
 fn write_text(path: &Path, text: &str) -> Outcome {
@@ -48,4 +60,12 @@ function and run the command again.
 | `crate.png` | `textures::wooden_crate` | one side of a wooden crate |
 | `lighthouse.png` | `textures::lighthouse` | the lighthouse's wall: across once around, up from the foot to the gallery |
 | `lighthouse.obj`, `lighthouse.mtl` | `lighthouse::obj` | a lighthouse, 2 high, y up, on y = 0; railing and pillars cast thin shadows |
+
+In `csci3260/`, by the functions of `xtask/src/assets/csci3260/`:
+
+| file | made by | shows |
+|---|---|---|
+| `dolphin.obj`, `dolphin.mtl` | `dolphin::obj` | a leaping dolphin in the box of the course's own, (−41.1, −111.5, 1) to (41.1, 66, 153.2): z up, the beak towards −y |
+| `dolphin_01.png`, `dolphin_02.png` | `skins::grey`, `skins::orca` | its skins, to choose from: a bottlenose dolphin's and an orca's |
+| `sea_01.png`, `sea_02.png` | `sea::caustics`, `sea::swell` | water, to choose from: shallow with a net of light, and deep with waves; both repeat in both directions |
 ";
