@@ -1,5 +1,6 @@
 //! Every asset is made here, from formulas: the same on every run, and nobody else's work.
 
+mod aueb7;
 mod build;
 mod csci3260;
 mod lighthouse;
@@ -29,6 +30,7 @@ pub fn write_all(dir: &Path) -> Outcome {
     write_text(&dir.join("lighthouse.obj"), &lighthouse::obj())?;
     write_text(&dir.join("lighthouse.mtl"), lighthouse::MTL)?;
     csci3260::write(&dir.join("csci3260"))?;
+    aueb7::write(&dir.join("aueb7"))?;
     write_text(&dir.join("README.md"), README)
 }
 
@@ -68,4 +70,19 @@ In `csci3260/`, by the functions of `xtask/src/assets/csci3260/`:
 | `dolphin.obj`, `dolphin.mtl` | `dolphin::obj` | a leaping dolphin in the box of the course's own, (−41.1, −111.5, 1) to (41.1, 66, 153.2): z up, the beak towards −y |
 | `dolphin_01.png`, `dolphin_02.png` | `skins::grey`, `skins::orca` | its skins, to choose from: a bottlenose dolphin's and an orca's |
 | `sea_01.png`, `sea_02.png` | `sea::caustics`, `sea::swell` | water, to choose from: shallow with a net of light, and deep with waves; both repeat in both directions |
+
+In `aueb7/`, by the functions of `xtask/src/assets/aueb7/`; y is up in every model:
+
+| file | made by | shows |
+|---|---|---|
+| `ball_01.png`, `ball_02.png` | `balls::beach`, `balls::stars` | two balls: across is once around, up is from pole to pole |
+| `terrain.obj`, `terrain.mtl` | `island::obj` | an island 18 across, to be drawn ten times as large and 8 lower: at the origin the ground is 1 high, at (0, 0, −1.8) it is 0.8 |
+| `sand.png` | `island::sand` | the island's ground; repeats in both directions |
+| `skeleton.obj`, `skeleton.mtl` | `skeleton::obj` | a pirate's skeleton with a cutlass, 10 high on y = 0, its face towards −z |
+| `bone.png` | `skeleton::bone_picture` | old bone; repeats in both directions |
+| `treasure.obj`, `treasure.mtl` | `treasure::obj` | an open treasure chest, 18 wide on y = 0, to be drawn half as large: its front and the spilled coins towards −z |
+| `wood.png`, `gold.png` | `treasure::wood`, `treasure::gold` | planks and coins; both repeat in both directions |
+| `palace.obj`, `palace.mtl` | `palace::obj` | a palace in the manner of Knossos on a slab 70 wide and 45 deep, 25 high on y = 0, its front towards +z |
+| `wall.png`, `fresco.png` | `walls::wall`, `walls::fresco` | one storey's painted wall, and a frieze of dolphins; both repeat across |
+| `paving.png` | `walls::paving` | slabs of stone; repeats in both directions |
 ";
