@@ -109,7 +109,7 @@ fn ground(palace: &mut Palace) {
         .push(slab([-35.0, 0.0, -22.5], [35.0, GROUND, 22.5]));
 }
 
-/// A storey: a block with painted walls between `low` and `high` (x and z), under a roof that juts out by `eaves`.
+/// A storey: a block with painted walls between `low` and `high` (x and z).
 fn storey(palace: &mut Palace, number: u32, low: [f64; 2], high: [f64; 2]) {
     let (bottom, top) = (floor(number), floor(number + 1) - 0.7);
     palace.walls.push(wall(
