@@ -9,8 +9,8 @@ pub const REACH: f64 = 1.0 - RADIUS;
 
 /// Balls that touch, and approach no faster than this share of their speeds, rest against each other.
 ///
-/// A speed's rounding is 10⁻¹⁶ of it. Were a bounce made of that, it would change nothing, and three balls that touch
-/// could pass it on among themselves for ever, with no time passing.
+/// A speed's rounding is 10⁻¹⁶ of it, and so can be what is left of an approach after a bounce. Were a bounce made of
+/// that, it would change nothing, and balls that touch could meet for ever with no time passing.
 const RESTING: f64 = 1e-14;
 
 /// A ball on its present flight, which is straight.
@@ -112,9 +112,11 @@ pub fn wall_bounce(ball: &mut Ball, axis: usize, time: f64) {
 
 /// Two balls of equal mass, which touch at `time`, exchange what of their velocities is along the contact normal.
 ///
-/// The normal d stays unnormalised: what is exchanged is q = d·(w·d)/(d·d), with w the difference of the velocities.
-/// Both balls change by the same q, which keeps the momentum; and the kinetic energy changes by q·q − q·w, which is
-/// exactly 0 for every length of d, so only the rounding of the last steps is left, which has no direction to drift in.
+/// What is exchanged is q = d·(w·d)/(d·d), with d from centre to centre and w the difference of the velocities. Both
+/// change by the same q, which keeps the momentum. The kinetic energy changes by q·q − q·w, which is 0 whatever the
+/// length of d: so nothing but the last bits is lost, to either side. Over 10⁶ collisions that is 3·10⁻¹⁵ of the energy;
+/// with d/|d| for the normal, 4·10⁻¹⁴; with (2·RADIUS)² in the place of d·d, which it is but for the rounding of the
+/// time, more than 10⁻⁹.
 #[doc(alias = "BallBounce")]
 pub fn ball_bounce(a: &mut Ball, b: &mut Ball, time: f64) {
     a.fly_to(time);

@@ -156,7 +156,7 @@ impl Simulation {
         self.balls.push(Ball::new(position, velocity, now, color));
         let new = self.balls.len() - 1;
         self.begin_flight(new);
-        self.predict_event(new, None, now);
+        self.predict_event(new, now);
         Ok(())
     }
 
@@ -194,15 +194,15 @@ impl Simulation {
             Meeting::Wall { ball, axis } => {
                 wall_bounce(&mut self.balls[ball], axis, time);
                 self.begin_flight(ball);
-                self.predict_event(ball, None, time);
+                self.predict_event(ball, time);
             }
             Meeting::Balls { a, b } => {
                 let (first, second) = self.balls.split_at_mut(b);
                 ball_bounce(&mut first[a], &mut second[0], time);
                 self.begin_flight(a);
                 self.begin_flight(b);
-                self.predict_event(a, Some(b), time);
-                self.predict_event(b, Some(a), time);
+                self.predict_event(a, time);
+                self.predict_event(b, time);
             }
         }
         Some(bounce)
@@ -224,10 +224,8 @@ impl Simulation {
     }
 
     /// Queues what can happen next to a ball whose flight begins at `time`: a wall, or balls before that wall.
-    ///
-    /// The ball that it has `just_met` is left out: two balls that fly straight on from a bounce do not meet again.
     #[doc(alias = "PredictEvent")]
-    fn predict_event(&mut self, ball: usize, just_met: Option<usize>, time: f64) {
+    fn predict_event(&mut self, ball: usize, time: f64) {
         let wall = wall_test(&self.balls[ball], time);
         if let Some((time, axis)) = wall {
             self.queue(time, Meeting::Wall { ball, axis });
@@ -235,7 +233,7 @@ impl Simulation {
         // After the wall another flight begins, for which everything is predicted anew.
         let last = wall.map_or(f64::INFINITY, |(time, _)| time);
         for other in 0..self.balls.len() {
-            if other == ball || Some(other) == just_met {
+            if other == ball {
                 continue;
             }
             let hit = hit_test(&self.balls[ball], &self.balls[other], time);

@@ -1,10 +1,10 @@
-//! What only the inside of the simulation shows; the rest is in `tests/cmsc23700_simulation.rs`.
+//! What only the inside of the simulation shows; the rest is in `tests/cmsc23700_simulation`.
 
 use glam::dvec3;
 
 use super::*;
 
-/// The balls' radius, the box and the numbers that the course gives.
+/// Places, speeds and colours that the course gives.
 #[test]
 fn new_balls_are_as_the_course_has_them() {
     for seed in 0..50 {
