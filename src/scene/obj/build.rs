@@ -1,106 +1,133 @@
-//! From the lines of a model to its parts: corners become vertices, faces become triangles.
+//! tobj reads what the guard let through; faces become triangles, and each vertex gets a normal.
 
-use std::collections::HashMap;
+use std::io::{self, BufReader, Read};
+use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
-use super::model::{Corner, Model, NONE};
+use super::guard::Passed;
 use super::{Part, polygon};
+use crate::error::one_line;
+use crate::progress::Progress;
 use crate::scene::Mesh;
-use crate::scene::reading::Files;
+use crate::{Error, Result};
 
-/// A model with more parts than this is drawn by material alone: some programs name every single face.
-pub const MOST_NAMED_PARTS: usize = 4096;
-
-/// The faces with one name and one material, in the order in which these came.
-pub fn parts(model: &Model, files: &Files) -> Vec<Part> {
-    let materials = model.resolved_materials(files);
-    let mut numbers = HashMap::new();
-    let mut parts: Vec<(Part, Vertices)> = Vec::new();
-    let mut builder = Builder::default();
-    let mut start = 0;
-    for face in &model.faces {
-        let corners = &model.corners[start..face.end];
-        start = face.end;
-        let material = materials.get(face.material as usize).copied().flatten();
-        // What is not there is no material of its own.
-        let material_number = material.map_or(NONE, |_| face.material);
-        let named = (face.name, material_number);
-        let number = part_number(named, &mut numbers, parts.len());
-        if number == parts.len() {
-            let part = Part {
-                name: model.names[face.name as usize].clone(),
-                mesh: Mesh::default(),
-                material: material.cloned(),
-            };
-            parts.push((part, Vertices::new()));
-        }
-        let (part, vertices) = &mut parts[number];
-        builder.add(model, corners, &mut part.mesh, vertices);
+/// The parts with their meshes.
+pub fn parts(path: &Path, (mut parts, text): Passed) -> Result<Vec<Part>> {
+    let models = models(path, &text)?;
+    drop(text);
+    for (part, model) in parts.iter_mut().zip(models) {
+        part.mesh = Builder::new(model.mesh).mesh();
     }
-    parts.into_iter().map(|(part, _)| part).collect()
+    Ok(parts)
 }
 
-/// The vertices that a part has already, by the indices of their corner.
-type Vertices = HashMap<Corner, u32>;
-
-/// The part of a name and a material, by number; `count` if it is a new one.
-fn part_number(named: (u32, u32), numbers: &mut HashMap<(u32, u32), usize>, count: usize) -> usize {
-    if let Some(number) = numbers.get(&named) {
-        return *number;
+/// One model for each part.
+fn models(path: &Path, text: &str) -> Result<Vec<tobj::Model>> {
+    // Equal corners are one vertex; but tobj's triangles are right for convex faces only.
+    let options = tobj::LoadOptions {
+        single_index: true,
+        ..tobj::LoadOptions::default()
+    };
+    let name = one_line(&path.display().to_string());
+    let progress = Progress::new(format!("reading {name}"), text.len() as u64);
+    let mut reader = BufReader::new(Watched(text.as_bytes(), progress));
+    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    match tobj::load_obj_buf(&mut reader, &options, no_library) {
+        Ok((models, _)) => Ok(models),
+        Err(error) => Err(Error::input(path, None, super::unread(&error))),
     }
-    if count < MOST_NAMED_PARTS {
-        numbers.insert(named, count);
-        return count;
-    }
-    *numbers.entry((NONE, named.1)).or_insert(count)
 }
 
-/// Scratch space for one face after the other.
-#[derive(Default)]
+/// A text that is read while a person waits.
+struct Watched<'a>(&'a [u8], Progress);
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.0.read(buffer)?;
+        self.1.add(count as u64);
+        Ok(count)
+    }
+}
+
 struct Builder {
-    points: Vec<DVec3>,
-    triangles: Vec<[usize; 3]>,
+    model: tobj::Mesh,
+    mesh: Mesh,
+    /// Where the model's vertices are in the mesh, of those that are there.
+    places: Vec<Option<u32>>,
 }
 
 impl Builder {
-    fn add(&mut self, model: &Model, corners: &[Corner], mesh: &mut Mesh, vertices: &mut Vertices) {
-        let position = |corner: &Corner| model.positions[corner[0] as usize];
-        self.points.clear();
-        self.points.extend(corners.iter().map(position));
-        polygon::triangles(&self.points, &mut self.triangles);
-        for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|i| self.points[i]);
-            // A triangle without area is never seen: it may face anywhere.
-            let own_normal = || (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z);
-            let face = triangle.map(|i| {
-                let corner = corners[i];
-                match normal(model, &corner) {
-                    // Equal corners are one vertex.
-                    Some(normal) => *vertices
-                        .entry(corner)
-                        .or_insert_with(|| push_vertex(model, mesh, &corner, normal)),
-                    // Without a normal the triangle has a vertex, and its own normal, to itself.
-                    None => push_vertex(model, mesh, &corner, own_normal()),
-                }
-            });
-            mesh.faces.push(face);
+    fn new(model: tobj::Mesh) -> Self {
+        Self {
+            places: vec![None; model.positions.len() / 3],
+            mesh: Mesh::default(),
+            model,
         }
     }
-}
 
-/// The normal that a corner names; none if it has no direction, as programs write for faces without area.
-fn normal(model: &Model, corner: &Corner) -> Option<DVec3> {
-    // A file holds few digits: the length is made 1 again.
-    model.normals.get(corner[2] as usize)?.try_normalize()
-}
+    fn mesh(mut self) -> Mesh {
+        let indices = std::mem::take(&mut self.model.indices);
+        let arities = std::mem::take(&mut self.model.face_arities);
+        // tobj leaves the arities out where all faces are triangles.
+        let arities = arities.into_iter().chain(std::iter::repeat(3));
+        let mut points = Vec::new();
+        let mut triangles = Vec::new();
+        let mut rest = &indices[..];
+        for arity in arities {
+            if rest.is_empty() {
+                break;
+            }
+            let (face, after) = rest.split_at(arity as usize);
+            rest = after;
+            points.clear();
+            points.extend(face.iter().map(|index| self.position(*index)));
+            polygon::triangles(&points, &mut triangles);
+            for triangle in &triangles {
+                self.push_triangle(triangle.map(|i| face[i]));
+            }
+        }
+        self.mesh
+    }
 
-fn push_vertex(model: &Model, mesh: &mut Mesh, corner: &Corner, normal: DVec3) -> u32 {
-    let number = mesh.positions.len() as u32;
-    let texture_coord = model.texture_coords.get(corner[1] as usize);
-    mesh.positions.push(model.positions[corner[0] as usize]);
-    mesh.normals.push(normal);
-    mesh.texture_coords
-        .push(texture_coord.copied().unwrap_or(DVec2::ZERO));
-    number
+    fn push_triangle(&mut self, corners: [u32; 3]) {
+        let face = corners.map(|index| match self.normal(index) {
+            Some(normal) => self.shared(index, normal),
+            // Without a normal the triangle has a vertex, and its own normal, to itself.
+            None => self.push_vertex(index, self.own_normal(corners)),
+        });
+        self.mesh.faces.push(face);
+    }
+
+    fn position(&self, index: u32) -> DVec3 {
+        DVec3::from_slice(&self.model.positions[3 * index as usize..])
+    }
+
+    /// None if it has no direction, as programs write for faces without area.
+    fn normal(&self, index: u32) -> Option<DVec3> {
+        // A file holds few digits: the length is made 1 again.
+        DVec3::from_slice(&self.model.normals[3 * index as usize..]).try_normalize()
+    }
+
+    fn own_normal(&self, corners: [u32; 3]) -> DVec3 {
+        let [a, b, c] = corners.map(|index| self.position(index));
+        // A triangle without area is never seen: it may face anywhere.
+        (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z)
+    }
+
+    fn shared(&mut self, index: u32, normal: DVec3) -> u32 {
+        let known = self.places[index as usize];
+        let place = known.unwrap_or_else(|| self.push_vertex(index, normal));
+        self.places[index as usize] = Some(place);
+        place
+    }
+
+    fn push_vertex(&mut self, index: u32, normal: DVec3) -> u32 {
+        let place = self.mesh.positions.len() as u32;
+        let texture_coord = DVec2::from_slice(&self.model.texcoords[2 * index as usize..]);
+        self.mesh.positions.push(self.position(index));
+        self.mesh.normals.push(normal);
+        self.mesh.texture_coords.push(texture_coord);
+        place
+    }
 }

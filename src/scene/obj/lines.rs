@@ -87,17 +87,30 @@ pub fn keyword(line: &str) -> (&str, &str) {
 /// Beyond this, squares and products of a few of them would leave the range of an f32.
 const LARGEST: f64 = 1e12;
 
-/// The first N numbers.
-pub fn numbers<const N: usize>(rest: &str) -> Checked<[f64; N]> {
+/// The first N numbers, as they are written.
+pub fn numbers<const N: usize>(rest: &str) -> Checked<[&str; N]> {
     let mut words = rest.split_ascii_whitespace();
-    let mut numbers = [0.0; N];
+    let mut numbers = [""; N];
     for number in &mut numbers {
-        let word = words.next().and_then(|word| word.parse().ok());
-        let usable = word.filter(|value: &f64| value.abs() <= LARGEST);
-        *number = usable.ok_or_else(|| {
+        *number = words.next().filter(|word| is_usable(word)).ok_or_else(|| {
             let found = quoted(rest);
             format!("found {found}, expected {N} finite numbers of at most 1e12")
         })?;
     }
     Ok(numbers)
+}
+
+fn is_usable(word: &str) -> bool {
+    word.parse::<f64>()
+        .is_ok_and(|value| value.abs() <= LARGEST)
+}
+
+/// Writes a line for tobj.
+pub fn put(text: &mut String, keyword: &str, words: &[&str]) {
+    text.push_str(keyword);
+    for word in words {
+        text.push(' ');
+        text.push_str(word);
+    }
+    text.push('\n');
 }

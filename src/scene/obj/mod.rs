@@ -1,23 +1,21 @@
-//! OBJ models, as they are found.
+//! OBJ models, as they are found: a guard checks the lines, tobj reads what passes, and its arrays become meshes.
 //!
 //! What makes the geometry wrong (a number that is none, an index out of range) stops with file and line. What only makes
 //! it plainer (a material or a texture that is not there) is noted, and the model is drawn without.
 
 mod build;
+mod corners;
+mod groups;
+mod guard;
 mod lines;
-mod model;
 mod mtl;
 mod polygon;
-mod progress;
 
 use std::path::{Path, PathBuf};
 
 use super::reading::{Files, MODEL_LIMIT};
 use super::{Material, Mesh};
 use crate::{Error, Result};
-use lines::{keyword, lines};
-use model::{Model, Problem};
-use progress::Progress;
 
 /// The faces of one object that have one material.
 #[derive(Clone, Debug)]
@@ -56,35 +54,28 @@ pub fn parse(
 
 /// Reads a model and what belongs to it from `files`.
 pub fn read(path: &Path, files: &Files) -> Result<Vec<Part>> {
-    parse_with(path, &files.read(path, MODEL_LIMIT)?, files)
+    // The file's own text is dropped before tobj reads what passed.
+    let passed = check(path, &files.read(path, MODEL_LIMIT)?, files)?;
+    build::parts(path, passed)
 }
 
 /// A model in memory, with its materials and textures from `files`.
 pub fn parse_with(path: &Path, text: &[u8], files: &Files) -> Result<Vec<Part>> {
+    build::parts(path, check(path, text, files)?)
+}
+
+fn check(path: &Path, text: &[u8], files: &Files) -> Result<guard::Passed> {
     // Notepad's "Unicode".
     if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
         let message = "found UTF-16, expected a model in ASCII or UTF-8";
         return Err(Error::input(path, None, message));
     }
-    let mut model = Model::new(path);
-    let mut progress = Progress::new(path, text.len());
-    for line in lines(text) {
-        progress.at(line.end);
-        let (keyword, rest) = keyword(&line.text);
-        model
-            .take(line.number, keyword, rest, files)
-            .map_err(|problem| match problem {
-                Problem::Here(message) => Error::input(path, line.number, message),
-                Problem::Elsewhere(error) => error,
-            })?;
-    }
-    model.check_indices_ahead()?;
-    let parts = build::parts(&model, files);
-    if parts.is_empty() {
-        let message = "found no faces, expected at least one";
-        return Err(Error::input(path, None, message));
-    }
-    Ok(parts)
+    guard::check(path, text, files)
+}
+
+/// The guard let something through that tobj does not take: a mistake in this program.
+fn unread(cause: &tobj::LoadError) -> String {
+    format!("found what tobj cannot read ({cause}), expected that the checks stop it")
 }
 
 /// The path of a file that is named in another one. Programs on Windows write names with backslashes.

@@ -1,4 +1,4 @@
-//! Material libraries: the lines that a [`Material`] has a place for.
+//! Material libraries: the lines that a [`Material`] has a place for are checked, and tobj reads them.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use glam::DVec3;
 use image::{ImageFormat, RgbImage};
 
 use super::beside;
-use super::lines::{Checked, keyword, lines, numbers};
+use super::lines::{Checked, keyword, lines, numbers, put};
 use crate::error::quoted;
 use crate::scene::Material;
 use crate::scene::reading::{Files, TEXT_LIMIT};
@@ -23,7 +23,7 @@ pub struct Library {
 
 /// Limits that bound time and memory: a model of a gigabyte could name the same library a hundred million times.
 const MOST_LIBRARIES: usize = 100;
-pub const MOST_MATERIALS: usize = 65_536;
+const MOST_MATERIALS: usize = 65_536;
 
 /// What a material has where its lines say nothing.
 const UNSAID: Material = Material {
@@ -52,65 +52,112 @@ impl Library {
     }
 
     fn read_lines(&mut self, path: &Path, files: &Files) -> Result<()> {
-        let text = files.read(path, TEXT_LIMIT)?;
-        let mut current = None;
-        for line in lines(&text) {
-            let wrong = |message| Error::input(path, line.number, message);
-            let (keyword, rest) = keyword(&line.text);
-            if self.materials.len() == MOST_MATERIALS {
-                return Err(wrong(format!(
-                    "found more than {MOST_MATERIALS} materials, expected at most that"
-                )));
-            }
-            if keyword == "newmtl" {
-                // Blender has written materials without a name.
-                self.keep(current.replace((rest.to_owned(), UNSAID)));
-            }
-            let Some((_, material)) = &mut current else {
-                continue;
+        let passed = check(path, &files.read(path, TEXT_LIMIT)?, self.materials.len())?;
+        let (materials, _) = tobj::load_mtl_buf(&mut passed.text.as_bytes())
+            .map_err(|error| Error::input(path, None, super::unread(&error)))?;
+        for (named, found) in passed.materials.into_iter().zip(materials) {
+            let texture = match &found.diffuse_texture {
+                Some(name) => texture(path, named.texture_line, name, files)?,
+                None => None,
             };
-            match keyword {
-                "Kd" => material.diffuse = color(rest).map_err(wrong)?,
-                "Ks" => material.specular = color(rest).map_err(wrong)?,
-                "Ns" => {
-                    let [shininess] = numbers(rest).map_err(wrong)?;
-                    material.shininess = shininess;
-                }
-                "map_Kd" => material.texture = texture(path, line.number, rest, files)?,
-                _ => {}
-            }
+            self.materials
+                .entry(named.name)
+                .or_insert(material(&found, texture));
         }
-        self.keep(current);
         Ok(())
-    }
-
-    fn keep(&mut self, material: Option<(String, Material)>) {
-        if let Some((name, mut material)) = material {
-            // With 0 or −1 programs mean no highlight; as an exponent it would be one all over.
-            if material.shininess <= 0.0 {
-                material.specular = DVec3::ZERO;
-                material.shininess = UNSAID.shininess;
-            }
-            self.materials.entry(name).or_insert(material);
-        }
     }
 }
 
+/// What passed.
+#[derive(Default)]
+struct Passed {
+    /// For tobj: materials have numbers for names.
+    text: String,
+    materials: Vec<Named>,
+}
+
+struct Named {
+    name: String,
+    texture_line: usize,
+}
+
+/// Goes over the lines of a library once; there are `known` materials already.
+fn check(path: &Path, text: &[u8], known: usize) -> Result<Passed> {
+    let mut passed = Passed::default();
+    for line in lines(text) {
+        let (keyword, rest) = keyword(&line.text);
+        passed
+            .take(line.number, keyword, rest, known)
+            .map_err(|message| Error::input(path, line.number, message))?;
+    }
+    Ok(passed)
+}
+
+impl Passed {
+    fn take(&mut self, line: usize, keyword: &str, rest: &str, known: usize) -> Checked<()> {
+        if keyword == "newmtl" {
+            check_count(known + self.materials.len())?;
+            let number = self.materials.len().to_string();
+            put(&mut self.text, "newmtl", &[&number]);
+            // Blender has written materials without a name.
+            self.materials.push(Named {
+                name: rest.to_owned(),
+                texture_line: line,
+            });
+        }
+        let Some(material) = self.materials.last_mut() else {
+            return Ok(());
+        };
+        match keyword {
+            "Kd" | "Ks" => put(&mut self.text, keyword, &color(rest)?),
+            "Ns" => put(&mut self.text, keyword, &numbers::<1>(rest)?),
+            "map_Kd" if !without_options(rest).is_empty() => {
+                material.texture_line = line;
+                put(&mut self.text, keyword, &[without_options(rest)]);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// Whether there may be one more material than `count`.
+pub fn check_count(count: usize) -> Checked<()> {
+    match count {
+        ..MOST_MATERIALS => Ok(()),
+        _ => Err(format!(
+            "found more than {MOST_MATERIALS} materials, expected at most that"
+        )),
+    }
+}
+
+fn material(found: &tobj::Material, texture: Option<Arc<RgbImage>>) -> Material {
+    let shininess = found.shininess.unwrap_or(UNSAID.shininess);
+    let mut material = Material {
+        diffuse: found.diffuse.map_or(UNSAID.diffuse, DVec3::from),
+        specular: found.specular.map_or(UNSAID.specular, DVec3::from),
+        shininess,
+        texture,
+    };
+    // With 0 or −1 programs mean no highlight; as an exponent it would be one all over.
+    if shininess <= 0.0 {
+        material.specular = DVec3::ZERO;
+        material.shininess = UNSAID.shininess;
+    }
+    material
+}
+
 /// Three numbers, or one for a grey.
-fn color(rest: &str) -> Checked<DVec3> {
+fn color(rest: &str) -> Checked<[&str; 3]> {
     match rest.split_ascii_whitespace().count() {
-        1 => numbers::<1>(rest).map(|[grey]| DVec3::splat(grey)),
-        _ => numbers::<3>(rest).map(DVec3::from),
+        1 => numbers(rest).map(|[grey]| [grey; 3]),
+        _ => numbers(rest),
     }
 }
 
 /// The picture of a `map_Kd`, or a note that there is none.
-fn texture(path: &Path, line: usize, rest: &str, files: &Files) -> Result<Option<Arc<RgbImage>>> {
+fn texture(path: &Path, line: usize, name: &str, files: &Files) -> Result<Option<Arc<RgbImage>>> {
     let wrong = |message| Error::input(path, line, message);
-    let name = without_options(rest);
-    if name.is_empty() {
-        return Ok(None);
-    }
     let drawn_without = |what: &str| {
         let name = quoted(name);
         files.note(&wrong(format!("found {what} {name}, drawn without it")));
