@@ -132,6 +132,17 @@ fn the_tree_misses_nothing_that_brute_force_finds() {
     }
 }
 
+/// The points of the floor that are seen, in world space, with the truth's label: but for those where it says nothing.
+fn floor_points(scene: &Scene, rays: &Rays, truth: &Truth) -> Vec<(DVec3, Label)> {
+    let points = truth.seen.iter().enumerate().filter_map(|(i, seen)| {
+        let (triangle, point) = (*seen)?;
+        let on_floor = rays.objects[triangle as usize] == 0;
+        let sure = truth.labels[i] != Label::NotValid && !truth.ambiguous[i];
+        (on_floor && sure).then(|| (point + scene.camera.eye, truth.labels[i]))
+    });
+    points.collect()
+}
+
 /// Whether the way from a point on the floor to the light, or against parallel rays, goes through a box.
 fn through_box(point: DVec3, towards: DVec3, end: f64, least: DVec3, most: DVec3) -> bool {
     let (a, b) = ((least - point) / towards, (most - point) / towards);
@@ -150,17 +161,7 @@ fn the_shadow_of_a_box_is_the_closed_form() {
         let rays = Rays::new(&scene, 0);
         let truth = rays.truth(SIZE);
         let (mut floor_pixels, mut shadowed) = (0, 0);
-        for (i, seen) in truth.seen.iter().enumerate() {
-            let Some((triangle, point)) = seen else {
-                continue;
-            };
-            if rays.objects[*triangle as usize] != 0
-                || truth.labels[i] == Label::NotValid
-                || truth.ambiguous[i]
-            {
-                continue;
-            }
-            let point = *point + scene.camera.eye;
+        for (point, label) in floor_points(&scene, &rays, &truth) {
             let light = &scene.lights[0];
             let expected = match kind {
                 LightKind::Directional { .. } => {
@@ -168,11 +169,7 @@ fn the_shadow_of_a_box_is_the_closed_form() {
                 }
                 _ => through_box(point, light.position - point, 1.0, least, most),
             };
-            assert_eq!(
-                truth.labels[i] == Label::Shadowed,
-                expected,
-                "{name}: {point}"
-            );
+            assert_eq!(label == Label::Shadowed, expected, "{name}: {point}");
             floor_pixels += 1;
             shadowed += usize::from(expected);
         }
@@ -197,24 +194,14 @@ fn the_shadow_of_a_sphere_lies_between_its_inner_and_its_outer_one() {
     let step = std::f64::consts::PI / f64::from(n);
     let inner = (step / 2.0).cos() * (step / 2.0).cos();
     let mut counts = [0; 2];
-    for (i, seen) in truth.seen.iter().enumerate() {
-        let Some((triangle, point)) = seen else {
-            continue;
-        };
-        if rays.objects[*triangle as usize] != 0
-            || truth.labels[i] == Label::NotValid
-            || truth.ambiguous[i]
-        {
-            continue;
-        }
-        let point = *point + scene.camera.eye;
+    for (point, label) in floor_points(&scene, &rays, &truth) {
         let towards = (scene.lights[0].position - point).normalize();
         let distance = (centre - point).cross(towards).length();
         if distance < inner {
-            assert_eq!(truth.labels[i], Label::Shadowed, "{point}");
+            assert_eq!(label, Label::Shadowed, "{point}");
             counts[0] += 1;
         } else if distance > 1.0 {
-            assert_eq!(truth.labels[i], Label::Lit, "{point}");
+            assert_eq!(label, Label::Lit, "{point}");
             counts[1] += 1;
         }
     }
