@@ -399,7 +399,11 @@ impl Running {
                 if shown == Shown::DepthRaw {
                     return picture::write_depths(output, &depths, &notes);
                 }
-                picture::write_grey(output, &depths.linearised(scale.near, scale.far), &notes)
+                picture::write_grey(
+                    output,
+                    &depths.linearised(scale.projection, scale.near, scale.far),
+                    &notes,
+                )
             }
         }
     }

@@ -7,8 +7,9 @@ use glam::DVec3;
 use image::{GrayImage, Rgb, RgbImage};
 use serde_json::{Value, json};
 
-use crate::ground_truth::{Label, Ray, Rays, Truth};
+use crate::ground_truth::{Label, MapWidth, Ray, Rays, Truth};
 use crate::labs::MapScale;
+use crate::picture::Projection;
 
 /// A pixel counts as dark below this, of 255.
 const HALF: u8 = 128;
@@ -186,38 +187,41 @@ impl<'a> Measure<'a> {
     /// Whether the truth changes within one texel, on the plane of the triangle that is seen.
     fn within_a_texel_of_a_change(&self, i: usize, map: &MapScale) -> bool {
         let (triangle, point) = self.truth.seen[i].expect("a valid pixel shows a surface");
-        let Some(texel) = self.texel_slope(map) else {
-            return false;
-        };
         let own = self.truth.labels[i] == Label::Shadowed;
         let source = &self.rays.source;
         let [a, b, c] = *self.rays.surfaces.triangle(triangle);
         let normal = (b - a).cross(c - a);
-        let from_light = point - source.position;
-        let forward = from_light.dot(source.axis);
+        let [width, height] = self.texel_size_at(point, map);
         let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| (f64::from(x), f64::from(y))));
         around.filter(|offset| *offset != (0.0, 0.0)).any(|(x, y)| {
-            // From the light, through the neighbouring texel, onto the plane: at t = 1.
-            let direction = from_light + forward * texel * (x * source.right + y * source.up);
-            let reach = normal.dot(from_light) / normal.dot(direction);
-            if !(reach.is_finite() && reach > 0.0) {
-                return false;
-            }
-            let ray = Ray::new(source.position, reach * direction);
+            let across = x * width * source.right + y * height * source.up;
+            let ray = match source.map_width() {
+                MapWidth::AtDistance1(_) => {
+                    through(source.position, point - source.position, across, normal)
+                }
+                MapWidth::Everywhere(_) => along(source.axis, point, across, normal, map),
+            };
             // Triangles that go on in the same plane are met at 1, give or take a rounding, and shadow nothing.
-            self.rays.is_blocked(&ray, 1.0 - 1e-9, triangle) != own
+            ray.is_some_and(|ray| self.rays.is_blocked(&ray, 1.0 - 1e-9, triangle) != own)
         })
     }
 
-    /// The width of a texel at distance 1 from the light.
-    fn texel_slope(&self, map: &MapScale) -> Option<f64> {
-        Some(2.0 * self.rays.source.map_slope()? / f64::from(map.size))
+    /// How large a texel is where a point is, right and up across the light's axis.
+    fn texel_size_at(&self, point: DVec3, map: &MapScale) -> [f64; 2] {
+        let source = &self.rays.source;
+        let texels = f64::from(map.size);
+        match source.map_width() {
+            MapWidth::AtDistance1(width) => {
+                [(point - source.position).dot(source.axis) * (width / texels); 2]
+            }
+            MapWidth::Everywhere(size) => size.map(|length| length / texels),
+        }
     }
 
-    /// The width of a texel where a point is, across the light's axis.
-    fn texel_at(&self, point: DVec3, map: &MapScale) -> Option<f64> {
-        let source = &self.rays.source;
-        Some(self.texel_slope(map)? * (point - source.position).dot(source.axis))
+    /// The longer side of a texel where a point is.
+    fn texel_at(&self, point: DVec3, map: &MapScale) -> f64 {
+        let [width, height] = self.texel_size_at(point, map);
+        width.max(height)
     }
 
     fn bias(&self, map: &MapScale) -> Option<Bias> {
@@ -233,13 +237,18 @@ impl<'a> Measure<'a> {
         let middle = lit.len() / 2;
         let (_, &mut (distance, point), _) =
             lit.select_nth_unstable_by(middle, |a, b| a.0.total_cmp(&b.0));
-        // The stored depth is far/(far − near) · (1 − near/distance): its slope turns depths into lengths.
-        let slope = map.far * map.near / ((map.far - map.near) * distance * distance);
+        // Depth by length. In perspective the stored depth is far/(far − near) · (1 − near/distance).
+        let slope = match map.projection {
+            Projection::Perspective => {
+                map.far * map.near / ((map.far - map.near) * distance * distance)
+            }
+            Projection::Orthographic => 1.0 / (map.far - map.near),
+        };
         let world = map.bias / slope;
         Some(Bias {
             depth: map.bias,
             world,
-            texels: world / self.texel_at(point, map)?,
+            texels: world / self.texel_at(point, map),
         })
     }
 
@@ -262,7 +271,7 @@ impl<'a> Measure<'a> {
                 .filter_map(|i| Some((*i, self.distance_to_caster(*i)?)));
             let distances: Vec<(usize, f64)> = distances.collect();
             let at_caster = |(i, distance): &(usize, f64)| {
-                let texel = map.and_then(|map| self.texel_at(self.truth.seen[*i]?.1, map));
+                let texel = map.and_then(|map| Some(self.texel_at(self.truth.seen[*i]?.1, map)));
                 *distance < texel.unwrap_or(0.0).max(1.5 * self.pixel_width(*i))
             };
             let farthest = distances.iter().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -270,7 +279,7 @@ impl<'a> Measure<'a> {
                 && widest.is_none_or(|widest| *world > widest.world)
                 && distances.iter().any(at_caster)
             {
-                let texel = map.and_then(|map| self.texel_at(self.truth.seen[*i]?.1, map));
+                let texel = map.and_then(|map| Some(self.texel_at(self.truth.seen[*i]?.1, map)));
                 widest = Some(ContactGap {
                     world: *world,
                     texels: texel.map(|texel| world / texel),
@@ -355,6 +364,22 @@ impl<'a> Measure<'a> {
             })
         })
     }
+}
+
+/// The ray from a light onto the plane of a point that it lies `from_light` away, where it passes `across` from the
+/// point: at t = 1.
+fn through(light: DVec3, from_light: DVec3, across: DVec3, normal: DVec3) -> Option<Ray> {
+    let direction = from_light + across;
+    let reach = normal.dot(from_light) / normal.dot(direction);
+    (reach.is_finite() && reach > 0.0).then(|| Ray::new(light, reach * direction))
+}
+
+/// The same for parallel rays, from before everything that the map holds.
+fn along(axis: DVec3, point: DVec3, across: DVec3, normal: DVec3, map: &MapScale) -> Option<Ray> {
+    let slide = -normal.dot(across) / normal.dot(axis);
+    let path = (map.far - map.near) * axis;
+    let on_plane = point + across + slide * axis;
+    slide.is_finite().then(|| Ray::new(on_plane - path, path))
 }
 
 /// From a point to the nearest point of a triangle: Ericson, "Real-Time Collision Detection" (2005), section 5.1.5.

@@ -20,6 +20,15 @@ pub fn notes(renderer: &str) -> [(&'static str, String); 2] {
     ]
 }
 
+/// How a stored depth grows with the distance from the light's plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// As 1 − near/distance: most of the depths are near the camera.
+    Perspective,
+    /// Evenly.
+    Orthographic,
+}
+
 /// Depths as the driver stores them, 0 at the near plane and 1 at the far plane.
 #[derive(Clone, Debug)]
 pub struct DepthMap {
@@ -29,11 +38,14 @@ pub struct DepthMap {
 
 impl DepthMap {
     /// For the eye: the distance from the light's plane, linear in 0…255 from near to far.
-    pub fn linearised(&self, near: f64, far: f64) -> image::GrayImage {
-        let grey = |&depth: &f32| {
-            let ndc = 2.0 * f64::from(depth) - 1.0;
-            let distance = 2.0 * near * far / (far + near - ndc * (far - near));
-            (255.0 * (distance - near) / (far - near)).round() as u8
+    pub fn linearised(&self, projection: Projection, near: f64, far: f64) -> image::GrayImage {
+        let grey = |&depth: &f32| match projection {
+            Projection::Perspective => {
+                let ndc = 2.0 * f64::from(depth) - 1.0;
+                let distance = 2.0 * near * far / (far + near - ndc * (far - near));
+                (255.0 * (distance - near) / (far - near)).round() as u8
+            }
+            Projection::Orthographic => (255.0 * f64::from(depth)).round() as u8,
         };
         let pixels = self.depths.iter().map(grey).collect();
         image::GrayImage::from_raw(self.size[0], self.size[1], pixels).expect("one depth a texel")

@@ -53,7 +53,7 @@ const ROOMS: &[Room] = &[
     // Knows a picture and the truth; of a lab no more than the size of its map.
     Room {
         name: "measure",
-        imports: &["ground_truth", "labs"],
+        imports: &["ground_truth", "labs", "picture"],
         crates: &[],
         may_be_unsafe: false,
     },

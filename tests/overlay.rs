@@ -68,7 +68,13 @@ fn the_next_picture_is_the_same() {
                 bottom: 7,
                 size: [50, 50],
             };
-            overlay.draw_inset(gl, map.texture, [map.scale.near, map.scale.far], area);
+            overlay.draw_inset(
+                gl,
+                map.texture,
+                map.scale.projection,
+                [map.scale.near, map.scale.far],
+                area,
+            );
         }
         overlay.draw_sheet(gl);
         gl::check_errors(gl, "drawing over the picture").unwrap();
@@ -88,8 +94,11 @@ fn the_inset_shows_the_map_from_near_to_far() {
     bench.picture();
     let gl = &bench.context.gl;
     let map = bench.lab.shadow_texture(1).unwrap();
-    let expected = gl::read_depths(gl, map.texture, [map.scale.size; 2])
-        .linearised(map.scale.near, map.scale.far);
+    let expected = gl::read_depths(gl, map.texture, [map.scale.size; 2]).linearised(
+        map.scale.projection,
+        map.scale.near,
+        map.scale.far,
+    );
     let overlay = Overlay::new(gl).unwrap();
     let area = Area {
         left: 0,
@@ -97,7 +106,7 @@ fn the_inset_shows_the_map_from_near_to_far() {
         size: [256, 256],
     };
     let inset = |planes| {
-        overlay.draw_inset(gl, map.texture, planes, area);
+        overlay.draw_inset(gl, map.texture, map.scale.projection, planes, area);
         gl::read_grey(gl, [256, 256])
     };
     let most = |shown: &image::GrayImage| {

@@ -3,12 +3,16 @@
 uniform sampler2D shadow_map;
 uniform float near;
 uniform float far;
+// Whether the depths are even already.
+uniform bool orthographic;
 in vec2 uv;
 out vec4 color;
 
 void main()
 {
-    float ndc = 2.0 * texture(shadow_map, uv).r - 1.0;
+    float depth = texture(shadow_map, uv).r;
+    float ndc = 2.0 * depth - 1.0;
     float distance = 2.0 * near * far / (far + near - ndc * (far - near));
-    color = vec4(vec3((distance - near) / (far - near)), 1.0);
+    float even = orthographic ? depth : (distance - near) / (far - near);
+    color = vec4(vec3(even), 1.0);
 }

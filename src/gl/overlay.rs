@@ -6,6 +6,7 @@ use glow::{HasContext, PixelUnpackData};
 use image::RgbaImage;
 
 use super::{Program, Shaders};
+use crate::picture::Projection;
 use crate::{Error, Result};
 
 const SHADERS: &[(&str, &str)] = &[
@@ -47,7 +48,7 @@ impl Overlay {
         let program =
             |fragment, uniforms| Program::new(gl, &shaders, "quad.vert", fragment, uniforms);
         let sheet_program = program("sheet.frag", &["sheet"])?;
-        let inset_program = program("inset.frag", &["shadow_map", "near", "far"])?;
+        let inset_program = program("inset.frag", &["shadow_map", "near", "far", "orthographic"])?;
         let saved = Saved::new(gl);
         unsafe {
             let texture = gl.create_texture().map_err(Error::gl)?;
@@ -132,6 +133,7 @@ impl Overlay {
         &self,
         gl: &glow::Context,
         texture: glow::Texture,
+        projection: Projection,
         [near, far]: [f64; 2],
         area: Area,
     ) {
@@ -143,6 +145,8 @@ impl Overlay {
             program.set(gl, "shadow_map", 0);
             program.set(gl, "near", near);
             program.set(gl, "far", far);
+            let orthographic = projection == Projection::Orthographic;
+            program.set(gl, "orthographic", i32::from(orthographic));
             gl.bind_texture(glow::TEXTURE_2D, Some(texture));
             gl.bind_sampler(0, Some(self.inset.sampler));
         }

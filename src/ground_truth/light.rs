@@ -15,6 +15,15 @@ pub struct Source {
     kind: LightKind,
 }
 
+/// The width of a light's shadow map, across its axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MapWidth {
+    /// It grows with the distance from the light.
+    AtDistance1(f64),
+    /// It is the same all along parallel rays.
+    Everywhere([f64; 2]),
+}
+
 impl Source {
     pub fn new(light: &Light, origin: DVec3) -> Self {
         let axis = light.direction.normalize();
@@ -60,12 +69,15 @@ impl Source {
             }
     }
 
-    /// The slope of the shadow map's edge: half its width at distance 1. None for parallel rays.
-    pub fn map_slope(&self) -> Option<f64> {
-        let (LightKind::Spot { cone: fov, .. } | LightKind::Point { shadow_fov: fov }) = self.kind
-        else {
-            return None;
-        };
-        Some((fov.to_radians() / 2.0).tan())
+    /// How wide the shadow map is, right and up.
+    pub fn map_width(&self) -> MapWidth {
+        match self.kind {
+            LightKind::Spot { cone: fov, .. } | LightKind::Point { shadow_fov: fov } => {
+                MapWidth::AtDistance1(2.0 * (fov.to_radians() / 2.0).tan())
+            }
+            LightKind::Directional {
+                area: [left, right, bottom, top],
+            } => MapWidth::Everywhere([right - left, top - bottom]),
+        }
     }
 }

@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3, dvec2};
 use rayon::prelude::*;
 
 pub use area::{AreaLight, Penumbra};
-pub use light::Source;
+pub use light::{MapWidth, Source};
 pub use rays::{Hit, Ray, Surfaces};
 
 use crate::scene::{Camera, Scene};

@@ -15,6 +15,7 @@ pub use explanation::{Explanation, Probe, Step};
 pub use keys::{Button, Input, Key, Pointer, parse_keys};
 pub use settings::{Kind, Setting, Settings};
 
+use crate::picture::Projection;
 use crate::scene::Scene;
 use crate::{Error, Result, error};
 
@@ -108,6 +109,8 @@ pub struct ShadowTexture {
 pub struct MapScale {
     /// Texels across the map, which is square.
     pub size: u32,
+    /// Whether depths grow evenly with the distance.
+    pub projection: Projection,
     /// Near and far plane of the camera that it was drawn from.
     pub near: f64,
     pub far: f64,

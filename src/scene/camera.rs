@@ -93,6 +93,22 @@ pub fn perspective(fov: f64, aspect: f64, near: f64, far: Option<f64>) -> DMat4 
     )
 }
 
+/// Camera space to clip space without perspective: `glm::ortho`, of the box left, right, bottom, top between two planes.
+pub fn orthographic([left, right, bottom, top]: [f64; 4], near: f64, far: f64) -> DMat4 {
+    let (width, height, depth) = (right - left, top - bottom, far - near);
+    DMat4::from_cols(
+        DVec4::new(2.0 / width, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 2.0 / height, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, -2.0 / depth, 0.0),
+        DVec4::new(
+            -(right + left) / width,
+            -(top + bottom) / height,
+            -(far + near) / depth,
+            1.0,
+        ),
+    )
+}
+
 /// An up vector that is never along `look`: y, or z where the camera looks (nearly) along y.
 ///
 /// With the up vector along the look, `view` divides zero by zero and the whole map is NaN.

@@ -130,8 +130,13 @@ impl Panels {
                 bottom: height,
                 size: [side, side],
             };
-            self.overlay
-                .draw_inset(gl, map.texture, [map.scale.near, map.scale.far], area);
+            self.overlay.draw_inset(
+                gl,
+                map.texture,
+                map.scale.projection,
+                [map.scale.near, map.scale.far],
+                area,
+            );
         }
         Block {
             place: [

@@ -31,6 +31,7 @@ use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
 use crate::gl::{self, Program, Shaders};
+use crate::picture::Projection;
 use crate::scene::{Camera, Light, Object, Scene, rotate, shapes};
 use crate::{Error, Result};
 use first_pass::MapInputs;
@@ -260,6 +261,7 @@ impl Lab for Cs541 {
             texture: self.shadow_buffer.depth_texture_buffer,
             scale: MapScale {
                 size: self.shadow_buffer.kind.size,
+                projection: Projection::Perspective,
                 near,
                 far,
                 bias: self.epsilon(),
