@@ -262,7 +262,11 @@ fn scenes() -> Vec<Bad> {
         ),
         light(
             "kind = \"directional\"\ndirection = [0, -1, 0]",
-            &["bad.toml:", "a directional light", "expected spot or point"],
+            &[
+                "bad.toml:",
+                "a directional light",
+                "expected spot or point: csci3260",
+            ],
         ),
         in_light(
             "kind = \"sopt\"",

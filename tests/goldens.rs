@@ -29,7 +29,55 @@ const fn cs541(name: &'static str, options: &'static str) -> Case {
     }
 }
 
+const fn csci3260(name: &'static str, options: &'static str) -> Case {
+    Case {
+        lab: "csci3260",
+        name,
+        options,
+        share_beyond: SHARE_BEYOND,
+    }
+}
+
 const CASES: &[Case] = &[
+    csci3260("default", ""),
+    csci3260("depth-map", "--show shadow-map --set map_size=512"),
+    csci3260("visibility", "--size 320x240 --show visibility"),
+    csci3260("second-textures", "--size 320x240 --keys 24"),
+    csci3260(
+        "moved-keys",
+        "--size 320x240 --keys ww<Up><Left><Left><Drag:80,40>",
+    ),
+    csci3260("no-bias", "--size 320x240 --set stage=no_bias"),
+    csci3260("slope", "--size 320x240 --set stage=slope"),
+    csci3260("culling", "--size 320x240 --set stage=culling"),
+    csci3260("thick", "--size 320x240 --set stage=thick"),
+    csci3260("pcf", "--size 320x240 --set stage=pcf"),
+    csci3260("shadows-off", "--size 320x240 --set shadows=off"),
+    csci3260("room", "--size 320x240 --set scene=room"),
+    csci3260(
+        "room-no-bias",
+        "--size 320x240 --set scene=room --set stage=no_bias",
+    ),
+    csci3260(
+        "room-slope",
+        "--size 320x240 --set scene=room --set stage=slope",
+    ),
+    csci3260(
+        "room-culling",
+        "--size 320x240 --set scene=room --set stage=culling",
+    ),
+    csci3260(
+        "room-thick",
+        "--size 320x240 --set scene=room --set stage=thick",
+    ),
+    csci3260(
+        "room-pcf",
+        "--size 320x240 --set scene=room --set stage=pcf",
+    ),
+    csci3260(
+        "room-256",
+        "--size 320x240 --set scene=room --set map_size=256",
+    ),
     cs541("default", ""),
     cs541("depth-map", "--show shadow-map --set map_size=512"),
     cs541("visibility", "--show visibility"),

@@ -5,6 +5,7 @@
 
 pub mod cmsc23700;
 pub mod cs541;
+pub mod csci3260;
 mod explanation;
 mod keys;
 mod settings;
@@ -20,7 +21,7 @@ use crate::scene::Scene;
 use crate::{Error, Result, error};
 
 /// Every lab, in the order in which they are listed.
-pub static LABS: &[&Handout] = &[&cs541::HANDOUT];
+pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT];
 
 /// What is known of a lab before there is a context.
 pub struct Handout {

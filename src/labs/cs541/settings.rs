@@ -135,7 +135,7 @@ pub fn take_light(scene: &Scene, settings: &mut Settings) -> Result<()> {
             settings.set(&format!("shadow_fov={shadow_fov}"))
         }
         LightKind::Directional { .. } => Err(Error::usage(
-            "the scene has a directional light, expected spot or point: cs541 draws no other",
+            "the scene has a directional light, expected spot or point: csci3260 draws a directional one",
         )),
     }
 }

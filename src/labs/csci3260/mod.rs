@@ -1,0 +1,360 @@
+//! CSCI 3260, tutorial 8: OBJ models, and the shadows of a directional light by shadow mapping.
+//!
+//! | the slides | here |
+//! |---|---|
+//! | Load model | `models.rs`: `load_obj`, `load_texture` |
+//! | Rendering the shadow map | `shadow_map.rs`; `glsl/csci3260/ShadowVertexShader.glsl`, `ShadowFragmentShader.glsl` |
+//! | Using the shadow map | `basic_shader.rs`; `glsl/csci3260/VertexShaderCode.glsl`, `FragmentShaderCode.glsl` |
+//! | Shadow acne, Peter Panning, PCF | the settings `stage`, `bias`, `scene` |
+//!
+//! Chosen, because the slides leave it open: the clear color, the light's colors, the steps of the keys, the room, and
+//! the taps of PCF, of which the slides have only the name: the mean of five.
+//!
+//! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
+#![allow(unsafe_code)]
+
+mod basic_shader;
+mod models;
+mod scene;
+mod settings;
+mod shadow_map;
+
+use std::path::Path;
+
+use glam::{DMat4, DVec3};
+use glow::HasContext;
+
+use super::{
+    Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
+};
+use crate::gl::{self, Program, Shaders};
+use crate::picture::Projection;
+use crate::scene::{Camera, Light, Object, Scene, rotate};
+use crate::{Error, Result};
+use models::Model;
+use settings::{DOLPHIN_STEP, DOLPHIN_TURN, DRAG_STEP, INTENSITY_STEP, KEYS, SETTINGS};
+use shadow_map::{MapInputs, RenderTarget};
+
+pub static HANDOUT: Handout = Handout {
+    name: "csci3260",
+    title: "CSCI 3260, tutorial 8: shadow mapping of a directional light",
+    size: [800, 600],
+    keys: KEYS,
+    settings: SETTINGS,
+    lights: 1,
+    set_bias: settings::set_bias,
+    scene: scene::course,
+    start: |gl, scene, students| Ok(Box::new(Csci3260::initialized_gl(gl, scene, students)?)),
+};
+
+/// The shaders, which are the lesson's other half.
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "ShadowVertexShader.glsl",
+        include_str!("../../../glsl/csci3260/ShadowVertexShader.glsl"),
+    ),
+    (
+        "ShadowFragmentShader.glsl",
+        include_str!("../../../glsl/csci3260/ShadowFragmentShader.glsl"),
+    ),
+    (
+        "VertexShaderCode.glsl",
+        include_str!("../../../glsl/csci3260/VertexShaderCode.glsl"),
+    ),
+    (
+        "FragmentShaderCode.glsl",
+        include_str!("../../../glsl/csci3260/FragmentShaderCode.glsl"),
+    ),
+    (
+        "visibility.frag",
+        include_str!("../../../glsl/csci3260/visibility.frag"),
+    ),
+];
+
+/// The numbers of the two scenes, the course's (or a student's) and the room.
+const COURSE: usize = 0;
+const ROOM: usize = 1;
+
+/// How far up or down the mouse orbits, in degrees.
+const STEEPEST: f64 = 89.0;
+
+struct Csci3260 {
+    scenes: [Scene; 2],
+    settings: Settings,
+    size: [u32; 2],
+    /// In seconds; stands still while `rotation` is off.
+    time: f64,
+    dolphin_texture: usize,
+    sea_texture: usize,
+
+    /// What both passes draw, of each scene; None until it is first drawn.
+    models: [Option<Vec<Model>>; 2],
+
+    shaders: Shaders,
+    programs: Programs,
+    target: RenderTarget,
+    /// What the shadow map was drawn from, while that still holds.
+    drawn: Option<MapInputs>,
+
+    /// A program that only the measuring commands ask for.
+    visibility: Option<Program>,
+}
+
+struct Programs {
+    basic: Program,
+    shadow_map: Program,
+}
+
+impl Programs {
+    /// Both or none: a lab never draws with half of its shaders.
+    fn install(gl: &glow::Context, shaders: &Shaders) -> Result<Self> {
+        let basic = basic_shader::install_shaders(gl, shaders)?;
+        let shadow_map = shadow_map::install_shadow_map_shaders(gl, shaders)
+            .inspect_err(|_| basic.delete(gl))?;
+        Ok(Self { basic, shadow_map })
+    }
+}
+
+impl Csci3260 {
+    #[doc(alias = "initializedGL")]
+    fn initialized_gl(gl: &glow::Context, scene: Scene, students: Option<&Path>) -> Result<Self> {
+        settings::area(&scene)?;
+        let settings = Settings::new(SETTINGS);
+        let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
+        let target = RenderTarget::new(gl, map_size(gl, &settings))?;
+        let programs = Programs::install(gl, &shaders)?;
+        unsafe { gl.enable(glow::DEPTH_TEST) };
+        let mut lab = Self {
+            scenes: [scene, scene::room()],
+            settings,
+            size: HANDOUT.size,
+            time: 0.0,
+            dolphin_texture: 0,
+            sea_texture: 0,
+            models: [None, None],
+            shaders,
+            programs,
+            target,
+            drawn: None,
+            visibility: None,
+        };
+        lab.send_data_to_opengl(gl)?;
+        Ok(lab)
+    }
+
+    /// Models and textures of the present scene, if it has not been drawn yet.
+    #[doc(alias = "sendDataToOpenGL")]
+    fn send_data_to_opengl(&mut self, gl: &glow::Context) -> Result<()> {
+        let place = self.place();
+        if self.models[place].is_none() {
+            let _pass = gl::pass(gl, "set-up: models and textures");
+            let models = Model::of_scene(gl, self.scene(), scene::second_texture)?;
+            self.models[place] = Some(models);
+        }
+        Ok(())
+    }
+
+    /// Which of the two scenes is drawn.
+    fn place(&self) -> usize {
+        match self.settings.choice("scene") {
+            "room" => ROOM,
+            _ => COURSE,
+        }
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.scenes[self.place()]
+    }
+
+    fn light(&self) -> &Light {
+        &self.scene().lights[0]
+    }
+
+    fn area(&self) -> [f64; 4] {
+        settings::area(self.scene()).expect("a scene of another light was refused")
+    }
+
+    fn chosen_texture(&self, model: &str) -> usize {
+        match model {
+            "dolphin" => self.dolphin_texture,
+            "sea" => self.sea_texture,
+            _ => 0,
+        }
+    }
+
+    /// Applies a movement of the world to the dolphin, about where it stands.
+    fn move_dolphin(&mut self, movement: impl Fn(&Object) -> DMat4) {
+        let place = self.place();
+        let objects = self.scenes[place].objects.iter_mut();
+        for object in objects.filter(|object| object.name == "dolphin") {
+            let here = DMat4::from_translation(object.placement.w_axis.truncate());
+            object.placement = here * movement(object) * here.inverse() * object.placement;
+        }
+    }
+
+    /// Forward is where the beak points: −y in the model.
+    fn swim(&mut self, distance: f64) {
+        self.move_dolphin(|dolphin| {
+            let forward = dolphin.placement.transform_vector3(DVec3::NEG_Y);
+            DMat4::from_translation(distance * forward.normalize())
+        });
+    }
+
+    #[doc(alias = "paintGL")]
+    fn paint_gl(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        self.send_data_to_opengl(gl)?;
+        let size = map_size(gl, &self.settings);
+        if size != self.target.size {
+            self.target.delete(gl);
+            self.target = RenderTarget::new(gl, size)?;
+            self.drawn = None;
+        }
+        if self.settings.switch("shadows") {
+            let inputs = self.map_inputs();
+            let redraw = self.settings.choice("redraw") == "every_frame";
+            if redraw || self.drawn.as_ref() != Some(&inputs) {
+                self.render_shadow_map(gl, &inputs);
+                self.drawn = Some(inputs);
+            }
+        }
+        match show {
+            Show::Picture => self.use_shadow_map(gl),
+            Show::Visibility { .. } => self.draw_visibility(gl)?,
+        }
+        Ok(())
+    }
+}
+
+/// What the settings ask for, no larger than the driver allows.
+fn map_size(gl: &glow::Context, settings: &Settings) -> u32 {
+    let most = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE) };
+    settings.number("map_size").min(f64::from(most)) as u32
+}
+
+/// The camera after an orbit around the point that it looks at: to the right, then up, in degrees.
+fn orbited(camera: &Camera, right: f64, up: f64) -> Camera {
+    let centre = camera.eye + camera.look;
+    let look = rotate(right, camera.rup).transform_vector3(camera.look);
+    let side = look.cross(camera.rup);
+    // Straight from above and from below there is no side: the orbit stops short of them.
+    let elevation = 90.0 - look.angle_between(camera.rup).to_degrees();
+    let lowered = (elevation - up).clamp(-STEEPEST, STEEPEST) - elevation;
+    let look = rotate(lowered, side).transform_vector3(look);
+    Camera {
+        eye: centre - look,
+        look,
+        ..*camera
+    }
+}
+
+impl Lab for Csci3260 {
+    fn settings(&mut self) -> &mut Settings {
+        &mut self.settings
+    }
+
+    fn key(&mut self, key: Key) -> bool {
+        let place = self.place();
+        let light = &mut self.scenes[place].lights[0];
+        let turn = |degrees| move |_: &Object| rotate(degrees, DVec3::Y);
+        match key {
+            Key::Char('1') => self.dolphin_texture = 0,
+            Key::Char('2') => self.dolphin_texture = 1,
+            Key::Char('3') => self.sea_texture = 0,
+            Key::Char('4') => self.sea_texture = 1,
+            Key::Char('w') => light.color *= INTENSITY_STEP,
+            Key::Char('s') => light.color /= INTENSITY_STEP,
+            Key::Up => self.swim(DOLPHIN_STEP),
+            Key::Down => self.swim(-DOLPHIN_STEP),
+            Key::Left => self.move_dolphin(turn(DOLPHIN_TURN)),
+            Key::Right => self.move_dolphin(turn(-DOLPHIN_TURN)),
+            _ => return false,
+        }
+        true
+    }
+
+    fn pointer(&mut self, pointer: Pointer) -> bool {
+        let Pointer::Drag {
+            button: Button::Left,
+            dx,
+            dy,
+        } = pointer
+        else {
+            return false;
+        };
+        let place = self.place();
+        let camera = &mut self.scenes[place].camera;
+        *camera = orbited(
+            camera,
+            -DRAG_STEP * f64::from(dx),
+            DRAG_STEP * f64::from(dy),
+        );
+        true
+    }
+
+    fn resize(&mut self, size: [u32; 2]) {
+        self.size = size;
+    }
+
+    fn advance(&mut self, dt: f64) {
+        if self.settings.switch("rotation") {
+            self.time += dt;
+        }
+    }
+
+    fn moves(&self) -> bool {
+        let spins = |object: &Object| {
+            object
+                .spin
+                .is_some_and(|spin| spin.degrees_per_second != 0.0)
+        };
+        self.settings.switch("rotation") && self.scene().objects.iter().any(spins)
+    }
+
+    fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        self.paint_gl(gl, show)
+    }
+
+    fn reload(&mut self, gl: &glow::Context) -> Result<()> {
+        let programs = Programs::install(gl, &self.shaders)?;
+        let old = std::mem::replace(&mut self.programs, programs);
+        let made_on_demand = self.visibility.take();
+        for program in [old.basic, old.shadow_map].iter().chain(&made_on_demand) {
+            program.delete(gl);
+        }
+        // The map was drawn by the old shaders.
+        self.drawn = None;
+        Ok(())
+    }
+
+    fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
+        if !self.settings.switch("shadows") {
+            return Err(Error::usage(
+                "shadows=off draws no shadow map, expected shadows=on",
+            ));
+        }
+        let Light { near, far, .. } = *self.light();
+        Ok(ShadowTexture {
+            texture: self.target.depth_texture,
+            scale: MapScale {
+                size: self.target.size,
+                projection: Projection::Orthographic,
+                near,
+                far,
+                bias: self.bias(),
+            },
+        })
+    }
+
+    fn now(&self) -> Scene {
+        let mut scene = self.scene().clone();
+        for object in &mut scene.objects {
+            object.placement = self.model_matrix(object);
+            object.spin = None;
+        }
+        scene
+    }
+
+    fn explain(&mut self, _gl: &glow::Context, _probe: Probe) -> Result<Explanation> {
+        Err(Error::usage("csci3260 does not explain, expected cs541"))
+    }
+}
