@@ -4,10 +4,8 @@
 mod calls;
 mod common;
 
-use std::path::Path;
-use std::process::Command;
-
-use calls::{Line, exactly, find_in_order, in_pass, parse_apitrace, parse_c};
+use calls::record::{dropping_and_swapping_fails, other_arguments_fail, seen_from_outside, traced};
+use calls::{Line, exactly, find_in_order, in_pass};
 use common::{Bench, work_folder};
 use shadowlab::gl::trace;
 
@@ -94,98 +92,26 @@ fn check(lines: &[Line]) -> Result<(), String> {
     find_in_order(lines, &all).map(|_| ())
 }
 
-fn program() -> &'static Path {
-    Path::new(env!("CARGO_BIN_EXE_shadowlab"))
-}
-
-/// The lines of `shadowlab trace cs541`.
-fn traced() -> Vec<Line> {
-    let ran = Command::new(program())
-        .args(["trace", "cs541", "--device", "software"])
-        .output()
-        .unwrap();
-    assert!(
-        ran.status.success(),
-        "{}",
-        String::from_utf8_lossy(&ran.stderr)
-    );
-    parse_c(&String::from_utf8(ran.stdout).unwrap())
-}
-
-/// The lines of apitrace on `shadowlab screenshot cs541`.
-fn seen_from_outside() -> Vec<Line> {
-    let folder = work_folder("apitrace");
-    let record = folder.join("cs541.trace");
-    let ran = Command::new("apitrace")
-        .args(["trace", "--api", "egl", "--output"])
-        .arg(&record)
-        .arg(program())
-        .args(["screenshot", "cs541", "--device", "software", "-o"])
-        .arg(folder.join("cs541.png"))
-        .output()
-        .expect("apitrace is missing: `cargo xtask test` installs it");
-    assert!(
-        ran.status.success(),
-        "{}",
-        String::from_utf8_lossy(&ran.stderr)
-    );
-    let dump = Command::new("apitrace")
-        .args(["dump", "--verbose", "--color=never"])
-        .arg(&record)
-        .output()
-        .unwrap();
-    assert!(
-        dump.status.success(),
-        "{}",
-        String::from_utf8_lossy(&dump.stderr)
-    );
-    parse_apitrace(&String::from_utf8_lossy(&dump.stdout))
-}
-
 #[test]
 fn the_trace_is_the_handouts_sequence() {
-    check(&traced()).unwrap();
+    check(&traced("cs541")).unwrap();
 }
 
 #[test]
 fn apitrace_sees_the_handouts_sequence() {
-    check(&seen_from_outside()).unwrap();
+    check(&seen_from_outside("cs541", &work_folder("apitrace"))).unwrap();
 }
 
 /// The controls: every call that the handout asks for, dropped, swapped with the next one, given another argument.
 #[test]
 fn an_edited_stream_fails() {
-    let lines = traced();
+    let lines = traced("cs541");
     check(&lines).unwrap();
-    let pass = |heading: &str| {
-        let start = lines
-            .iter()
-            .position(|line| line.heading() == Some(heading))
-            .unwrap()
-            + 1;
-        let length = in_pass(&lines, heading)
-            .iter()
-            .filter(|line| !line.name.is_empty())
-            .count();
-        start..start + length
-    };
-    let mut edits = 0;
-    let exact = pass("set-up: storing depth values as a texture")
-        .chain(pass("first pass: drawing the shadow map"));
-    for at in exact {
-        let mut dropped = lines.clone();
-        dropped.remove(at);
-        check(&dropped).expect_err(&format!("without {}", lines[at]));
-        edits += 1;
-
-        if lines[at + 1].heading().is_none() && lines[at + 1].name != lines[at].name {
-            let mut swapped = lines.clone();
-            swapped.swap(at, at + 1);
-            check(&swapped).expect_err(&format!("{} after {}", lines[at], lines[at + 1]));
-            edits += 1;
-        }
-    }
-    for (found, edited) in [
+    let exact = [
+        "set-up: storing depth values as a texture",
+        "first pass: drawing the shadow map",
+    ];
+    let others = [
         (
             "glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 1024",
             "1024 → 512",
@@ -213,23 +139,9 @@ fn an_edited_stream_fails() {
         ("glUseProgram(shadow_program)", "shadow_program → program"),
         ("glActiveTexture(GL_TEXTURE1)", "GL_TEXTURE1 → GL_TEXTURE0"),
         ("glUniform1i(14, 1)", "1 → 0"),
-    ] {
-        let (from, to) = edited.split_once(" → ").unwrap();
-        let mut changed = lines.clone();
-        let mut count = 0;
-        for line in changed
-            .iter_mut()
-            .filter(|line| line.to_string().contains(found))
-        {
-            for arg in line.args.iter_mut().filter(|arg| *arg == from) {
-                *arg = to.to_owned();
-                count += 1;
-            }
-        }
-        assert!(count > 0, "{found}: {edited} changes nothing");
-        check(&changed).expect_err(&format!("{found}: {edited}"));
-        edits += 1;
-    }
+    ];
+    let edits = dropping_and_swapping_fails(&lines, &exact, check)
+        + other_arguments_fail(&lines, &others, check);
     assert!(edits > 100, "{edits} edits");
 }
 

@@ -25,6 +25,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 mod bound;
+pub mod record;
 mod text;
 
 use bound::{Bound, bind_target, same_target, works_on};
