@@ -6,6 +6,7 @@
 pub mod cmsc23700;
 pub mod cs541;
 pub mod csci3260;
+mod exact;
 mod explanation;
 mod keys;
 mod settings;

@@ -14,6 +14,7 @@
 #![allow(unsafe_code)]
 
 mod basic_shader;
+mod explain;
 mod models;
 mod scene;
 mod settings;
@@ -69,6 +70,10 @@ const SHADERS: &[(&str, &str)] = &[
         "visibility.frag",
         include_str!("../../../glsl/csci3260/visibility.frag"),
     ),
+    (
+        "explain.frag",
+        include_str!("../../../glsl/csci3260/explain.frag"),
+    ),
 ];
 
 /// The numbers of the two scenes, the course's (or a student's) and the room.
@@ -96,8 +101,9 @@ struct Csci3260 {
     /// What the shadow map was drawn from, while that still holds.
     drawn: Option<MapInputs>,
 
-    /// A program that only the measuring commands ask for.
+    /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
+    explainer: Option<Program>,
 }
 
 struct Programs {
@@ -137,6 +143,7 @@ impl Csci3260 {
             target,
             drawn: None,
             visibility: None,
+            explainer: None,
         };
         lab.send_data_to_opengl(gl)?;
         Ok(lab)
@@ -317,8 +324,9 @@ impl Lab for Csci3260 {
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::install(gl, &self.shaders)?;
         let old = std::mem::replace(&mut self.programs, programs);
-        let made_on_demand = self.visibility.take();
-        for program in [old.basic, old.shadow_map].iter().chain(&made_on_demand) {
+        let made_on_demand = [self.visibility.take(), self.explainer.take()];
+        let others = made_on_demand.iter().flatten();
+        for program in [old.basic, old.shadow_map].iter().chain(others) {
             program.delete(gl);
         }
         // The map was drawn by the old shaders.
@@ -354,7 +362,7 @@ impl Lab for Csci3260 {
         scene
     }
 
-    fn explain(&mut self, _gl: &glow::Context, _probe: Probe) -> Result<Explanation> {
-        Err(Error::usage("csci3260 does not explain, expected cs541"))
+    fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation> {
+        self.explain_at(gl, probe)
     }
 }

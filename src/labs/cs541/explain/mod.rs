@@ -11,10 +11,11 @@ use glam::{DMat4, DVec2, DVec3, DVec4, dvec2};
 
 use super::{Cs541, HANDOUT, second_pass};
 use crate::gl;
+use crate::labs::exact::{ROUNDING, Range, SNAP, corners};
 use crate::labs::{Explanation, Probe, Show, Step};
 use crate::scene::camera;
 use crate::{Error, Result};
-use exact::{ROUNDING, Range, SNAP, ShadowPosition, corners};
+use exact::ShadowPosition;
 use fragment::Fragment;
 
 /// B of the handout's equation (1): the standard cube to the unit cube.
