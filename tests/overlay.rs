@@ -7,6 +7,7 @@ use glow::HasContext;
 use image::{Rgba, RgbaImage};
 use shadowlab::gl::{self, Area, Overlay};
 use shadowlab::labs::Show;
+use shadowlab::picture::Projection;
 
 const SIZE: [u32; 2] = [161, 120];
 
@@ -117,6 +118,34 @@ fn the_inset_shows_the_map_from_near_to_far() {
     assert!(most(&inset([map.scale.near, map.scale.far])) <= 1);
     // The control: other planes are another picture.
     assert!(most(&inset([map.scale.near / 2.0, map.scale.far])) > 1);
+}
+
+/// Depths of an orthographic map are even already, whatever its planes, of which one may lie behind the light.
+#[test]
+fn the_inset_of_an_orthographic_map_shows_its_depths() {
+    let mut bench = Bench::new("csci3260", [256, 256], &["map_size=256"]);
+    bench.picture();
+    let gl = &bench.context.gl;
+    let map = bench.lab.shadow_texture(1).unwrap();
+    let planes = [map.scale.near, map.scale.far];
+    assert!(planes[0] < 0.0);
+    let depths = gl::read_depths(gl, map.texture, [map.scale.size; 2]);
+    let overlay = Overlay::new(gl).unwrap();
+    let area = Area {
+        left: 0,
+        bottom: 0,
+        size: [256, 256],
+    };
+    let wrong = |projection| {
+        overlay.draw_inset(gl, map.texture, projection, planes, area);
+        let shown = gl::read_grey(gl, [256, 256]).into_raw();
+        let expected = depths.depths.iter().map(|depth| 255.0 * depth);
+        let apart = expected.zip(shown).map(|(a, b)| (a - f32::from(b)).abs());
+        apart.filter(|apart| *apart > 0.51).count()
+    };
+    assert_eq!(wrong(Projection::Orthographic), 0);
+    // The control: taken for one in perspective it is another picture.
+    assert!(wrong(Projection::Perspective) > 10_000);
 }
 
 /// A lab whose shaders are read again draws the same, and an error changes nothing.
