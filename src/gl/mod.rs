@@ -20,7 +20,7 @@ pub use mesh::Mesh;
 pub use overlay::{Area, Overlay};
 pub use read::{read_depths, read_float_in_bytes, read_grey, read_rgb};
 pub use shader::{Program, Shaders, Uniform};
-pub use texture::{solid_texture, texture};
+pub use texture::{levels, solid_texture, texture};
 
 /// Names the calls from here until the returned guard is dropped: a heading in the trace, and a debug group where
 /// the driver has them (so that RenderDoc and apitrace show the handout's passes too).

@@ -6,11 +6,28 @@ use image::{RgbImage, imageops};
 use super::trace::{ObjectKind, name_object};
 use crate::{Error, Result};
 
-/// A repeating, mipmapped texture, with its name for the trace. A picture's first row is its top, GL's first row is the bottom.
+/// A picture's mipmap levels, ready for a texture: each half as large as the one before, the bottom row first as GL
+/// counts. Needs no context, so it can go on beside something that does.
 ///
-/// The smaller levels are averaged here: a software driver compiles shaders for `glGenerateMipmap`, which takes it
-/// longer than to draw the whole first frame.
-pub fn texture(gl: &glow::Context, name: &str, picture: &RgbImage) -> Result<glow::Texture> {
+/// They are averaged here: a software driver compiles shaders for `glGenerateMipmap`, which takes it longer than to draw
+/// the whole first frame.
+pub fn levels(picture: &RgbImage) -> Vec<RgbImage> {
+    let mut levels = vec![imageops::flip_vertical(picture)];
+    while let Some(last) = levels.last()
+        && last.dimensions() != (1, 1)
+    {
+        let (width, height) = last.dimensions();
+        levels.push(imageops::thumbnail(
+            last,
+            (width / 2).max(1),
+            (height / 2).max(1),
+        ));
+    }
+    levels
+}
+
+/// A repeating, mipmapped texture, with its name for the trace.
+pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbImage]) -> Result<glow::Texture> {
     unsafe {
         let texture = gl.create_texture().map_err(Error::gl)?;
         name_object(ObjectKind::Texture, texture.0.get(), name);
@@ -22,24 +39,18 @@ pub fn texture(gl: &glow::Context, name: &str, picture: &RgbImage) -> Result<glo
             glow::TEXTURE_MIN_FILTER,
             glow::LINEAR_MIPMAP_LINEAR as i32,
         );
-        let mut rows = imageops::flip_vertical(picture);
-        for level in 0.. {
-            let (width, height) = rows.dimensions();
+        for (number, level) in levels.iter().enumerate() {
             gl.tex_image_2d(
                 glow::TEXTURE_2D,
-                level,
+                number as i32,
                 glow::RGB as i32,
-                width as i32,
-                height as i32,
+                level.width() as i32,
+                level.height() as i32,
                 0,
                 glow::RGB,
                 glow::UNSIGNED_BYTE,
-                PixelUnpackData::Slice(Some(rows.as_raw())),
+                PixelUnpackData::Slice(Some(level.as_raw())),
             );
-            if (width, height) == (1, 1) {
-                break;
-            }
-            rows = imageops::thumbnail(&rows, (width / 2).max(1), (height / 2).max(1));
         }
         Ok(texture)
     }
@@ -50,6 +61,6 @@ pub fn solid_texture(gl: &glow::Context) -> Result<glow::Texture> {
     texture(
         gl,
         "white",
-        &RgbImage::from_pixel(1, 1, image::Rgb([255; 3])),
+        &[RgbImage::from_pixel(1, 1, image::Rgb([255; 3]))],
     )
 }

@@ -87,23 +87,38 @@ impl Cs541 {
         let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
         let kind = ShadowBufferKind::new(gl, &settings);
         let shadow_buffer = ShadowBuffer::new(gl, kind)?;
-        let programs = Programs::new(gl, &shaders)?;
+        // The driver compiles on one core; the textures' smaller levels need no driver and are averaged on another.
+        let pictures = scene.objects.iter().map(|object| &object.material.texture);
+        let pictures: Vec<_> = pictures.chain([&scene.sky]).collect();
+        let (programs, mut levels) = std::thread::scope(|scope| {
+            let levels = pictures
+                .iter()
+                .map(|picture| picture.as_deref().map(gl::levels));
+            let levels = scope.spawn(|| levels.collect::<Vec<_>>());
+            let programs = Programs::new(gl, &shaders);
+            (
+                programs,
+                levels.join().expect("pictures are averaged without panic"),
+            )
+        });
+        let programs = programs?;
 
         let _pass = gl::pass(gl, "set-up: meshes and textures");
         let white = gl::solid_texture(gl)?;
         let mut meshes = Vec::new();
         let mut textures = Vec::new();
-        for object in &scene.objects {
+        let sky_levels = levels.pop().flatten();
+        for (object, levels) in scene.objects.iter().zip(&levels) {
             meshes.push(gl::Mesh::new(gl, &object.name, &object.mesh)?);
-            textures.push(match &object.material.texture {
-                Some(picture) => gl::texture(gl, &format!("{}_texture", object.name), picture)?,
+            textures.push(match levels {
+                Some(levels) => gl::texture(gl, &format!("{}_texture", object.name), levels)?,
                 None => white,
             });
         }
         let sky = Sky {
             dome: gl::Mesh::new(gl, "dome", &shapes::sphere(20))?,
-            texture: match &scene.sky {
-                Some(picture) => Some(gl::texture(gl, "sky_texture", picture)?),
+            texture: match &sky_levels {
+                Some(levels) => Some(gl::texture(gl, "sky_texture", levels)?),
                 None => None,
             },
             marker_texture: white,

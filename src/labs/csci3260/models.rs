@@ -39,12 +39,16 @@ impl Model {
         for (object, index) in scene.objects.iter().zip(0..) {
             let name = &object.name;
             let mut textures = vec![match &object.material.texture {
-                Some(picture) => gl::texture(gl, &format!("{name}_texture"), picture)?,
+                Some(picture) => gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?,
                 None => gl::solid_texture(gl)?,
             }];
             if let Some(file) = others(name) {
                 let picture = load_texture(file)?;
-                textures.push(gl::texture(gl, &format!("{name}_texture_2"), &picture)?);
+                textures.push(gl::texture(
+                    gl,
+                    &format!("{name}_texture_2"),
+                    &gl::levels(&picture),
+                )?);
             }
             let mesh = Mesh {
                 object: index,
