@@ -27,20 +27,13 @@ fn floor_with(meshes: Vec<(Mesh, DMat4)>, kind: LightKind) -> Scene {
         shapes::plane(3),
         rotate(-90.0, DVec3::X) * DMat4::from_scale(DVec3::splat(10.0)),
     );
-    let object = |(mesh, placement)| Object {
-        name: String::new(),
-        mesh: Arc::new(mesh),
-        placement,
-        spin: None,
-        material: Material {
-            diffuse: DVec3::ONE,
-            specular: DVec3::ZERO,
-            shininess: 1.0,
-            texture: None,
-        },
-        casts: true,
-        plane: false,
+    let material = Material {
+        diffuse: DVec3::ONE,
+        specular: DVec3::ZERO,
+        shininess: 1.0,
+        texture: None,
     };
+    let object = |(mesh, placement)| Object::new("", mesh, placement, material.clone());
     Scene {
         size: None,
         clear: DVec3::ZERO,

@@ -106,6 +106,19 @@ pub enum Beam {
 }
 
 impl Object {
+    /// An object that stands still and casts.
+    pub fn new(name: &str, mesh: Mesh, placement: DMat4, material: Material) -> Self {
+        Self {
+            name: name.to_owned(),
+            mesh: Arc::new(mesh),
+            placement,
+            spin: None,
+            material,
+            casts: true,
+            plane: false,
+        }
+    }
+
     /// Object space to world space at `time` seconds.
     pub fn model(&self, time: f64) -> DMat4 {
         match self.spin {

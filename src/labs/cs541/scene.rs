@@ -22,7 +22,7 @@ pub fn default_scene() -> Result<Scene> {
         // A textured Plane for the shadows to fall on: 20 × 20, turned so that its normal is +y.
         Object {
             plane: true,
-            ..object(
+            ..Object::new(
                 "floor",
                 repeated(shapes::plane(MESH_SIZE), 3.0),
                 rotate(-90.0, up) * DMat4::from_scale(dvec3(10.0, 10.0, 1.0)),
@@ -32,7 +32,7 @@ pub fn default_scene() -> Result<Scene> {
         // A textured Plane that casts: with front face culling it loses its shadow, second_plane brings it back.
         Object {
             plane: true,
-            ..object(
+            ..Object::new(
                 "painting",
                 shapes::plane(MESH_SIZE),
                 DMat4::from_translation(dvec3(-3.5, 1.25, -1.2)) * rotate(35.0, DVec3::Y),
@@ -46,7 +46,7 @@ pub fn default_scene() -> Result<Scene> {
                 ),
             )
         },
-        object(
+        Object::new(
             "crate",
             shapes::cube(),
             DMat4::from_translation(dvec3(3.1, 0.7, -1.6))
@@ -58,13 +58,13 @@ pub fn default_scene() -> Result<Scene> {
                 10.0,
             ),
         ),
-        object(
+        Object::new(
             "sphere",
             shapes::sphere(MESH_SIZE),
             DMat4::from_translation(dvec3(1.9, 0.7, 1.3)) * DMat4::from_scale(DVec3::splat(0.7)),
             plain(dvec3(0.75, 0.15, 0.12), 60.0),
         ),
-        object(
+        Object::new(
             "teapot",
             shapes::teapot(8),
             DMat4::from_translation(dvec3(-1.4, 0.0, 1.4))
@@ -79,7 +79,7 @@ pub fn default_scene() -> Result<Scene> {
                 axis: DVec3::X,
                 degrees_per_second: 45.0,
             }),
-            ..object(
+            ..Object::new(
                 "torus",
                 shapes::torus(THICKNESS, MESH_SIZE),
                 DMat4::from_translation(dvec3(1.2, 2.3, -0.6))
@@ -136,21 +136,9 @@ fn lighthouse() -> Result<Vec<Object>> {
         DMat4::from_translation(dvec3(-0.9, 0.0, -2.6)) * DMat4::from_scale(DVec3::splat(1.75));
     let placed = |part: obj::Part| {
         let material = part.material.unwrap_or_default();
-        object(&part.name, part.mesh, placement, material)
+        Object::new(&part.name, part.mesh, placement, material)
     };
     Ok(parts.into_iter().map(placed).collect())
-}
-
-fn object(name: &str, mesh: Mesh, placement: DMat4, material: Material) -> Object {
-    Object {
-        name: name.to_owned(),
-        mesh: Arc::new(mesh),
-        placement,
-        spin: None,
-        material,
-        casts: true,
-        plane: false,
-    }
 }
 
 /// The mesh with its picture repeated `times` along each side.

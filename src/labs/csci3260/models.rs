@@ -7,7 +7,7 @@ use glam::DMat4;
 use image::RgbImage;
 
 use crate::gl;
-use crate::scene::{Material, Object, Scene, obj};
+use crate::scene::{Object, Scene, obj};
 use crate::{Error, Result};
 
 /// A file of the course, in the program.
@@ -77,26 +77,9 @@ pub fn load_obj(name: &str, files: &[File], placement: DMat4) -> Result<Vec<Obje
     })?;
     let placed = |part: obj::Part| {
         let material = part.material.unwrap_or_default();
-        object(name, part.mesh, placement, material)
+        Object::new(name, part.mesh, placement, material)
     };
     Ok(parts.into_iter().map(placed).collect())
-}
-
-pub fn object(
-    name: &str,
-    mesh: crate::scene::Mesh,
-    placement: DMat4,
-    material: Material,
-) -> Object {
-    Object {
-        name: name.to_owned(),
-        mesh: Arc::new(mesh),
-        placement,
-        spin: None,
-        material,
-        casts: true,
-        plane: false,
-    }
 }
 
 #[doc(alias = "loadTexture")]

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3, dvec3};
 
-use super::models::{File, load_obj, load_texture, object};
+use super::models::{File, load_obj, load_texture};
 use crate::Result;
 use crate::scene::{Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, rotate, shapes};
 
@@ -49,7 +49,7 @@ pub fn course() -> Result<Scene> {
         * rotate(-90.0, DVec3::X)
         * DMat4::from_scale(DVec3::splat(0.01));
     let mut objects = load_obj("dolphin", DOLPHIN, placement)?;
-    objects.push(object(
+    objects.push(Object::new(
         "sea",
         repeated(shapes::cube(), 4.0),
         cuboid(dvec3(-10.0, -2.0, -8.0), dvec3(10.0, -1.0, 8.0)),
@@ -97,19 +97,19 @@ fn light() -> Light {
 /// camera stands where the shadows fall to, and sees where they begin.
 pub fn room() -> Scene {
     let objects = vec![
-        object(
+        Object::new(
             "ground",
             shapes::cube(),
             cuboid(dvec3(-5.0, -0.5, -5.0), dvec3(5.0, 0.0, 5.0)),
             plain(dvec3(0.8, 0.78, 0.72), 0.0),
         ),
-        object(
+        Object::new(
             WALL,
             shapes::cube(),
             cuboid(dvec3(0.5, 0.0, -1.31), dvec3(2.9, 1.3, -1.29)),
             plain(dvec3(0.85, 0.6, 0.4), 0.0),
         ),
-        object(
+        Object::new(
             "teapot",
             shapes::teapot(10),
             DMat4::from_translation(dvec3(-0.75, 0.0, 0.7))
@@ -118,7 +118,7 @@ pub fn room() -> Scene {
                 * DMat4::from_scale(DVec3::splat(0.4)),
             plain(dvec3(0.2, 0.5, 0.65), 0.4),
         ),
-        object(
+        Object::new(
             "sphere",
             shapes::sphere(24),
             DMat4::from_translation(dvec3(1.5, 0.7, 0.9)) * DMat4::from_scale(DVec3::splat(0.7)),
