@@ -173,6 +173,9 @@ struct Explain {
     drawing: Drawing,
     #[command(flatten)]
     place: Place,
+    /// Which of the lab's lights
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    light: usize,
 }
 
 #[derive(Args)]
@@ -428,9 +431,12 @@ impl Explain {
             (None, Some(point)) => Probe::Point(DVec3::from_array(point)),
             (None, None) => unreachable!("clap asks for one of them"),
         };
+        check_light(labs::find(&self.state.lab)?, self.light)?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
         running.draw(self.drawing.frames - 1, Show::Picture)?;
-        let explanation = running.lab.explain(&running.context.gl, probe)?;
+        let explanation = running
+            .lab
+            .explain(&running.context.gl, probe, self.light)?;
         running.timings.lap("frames");
         print(&explanation.to_string())
     }

@@ -91,7 +91,7 @@ fn front_face_culling_loses_the_shadow_of_a_plane_and_a_second_plane_brings_it_b
         let probe = labs::Probe::Point(point);
         bench
             .lab
-            .explain(&bench.context.gl, probe)
+            .explain(&bench.context.gl, probe, 1)
             .unwrap()
             .in_shadow
             .unwrap()

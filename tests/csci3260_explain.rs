@@ -37,7 +37,7 @@ fn a_point_behind_the_thin_wall_is_lit_and_behind_the_thick_one_shadowed() {
     let in_shadow = |stage: &str, z: f64| {
         let mut bench = Bench::new("csci3260", [320, 240], &["scene=room", stage]);
         let probe = Probe::Point(dvec3(1.5, 0.0, z));
-        let explanation = bench.lab.explain(&bench.context.gl, probe).unwrap();
+        let explanation = bench.lab.explain(&bench.context.gl, probe, 1).unwrap();
         for step in &explanation.steps {
             assert!(step.agrees(), "{}\n{explanation}", step.name);
         }
@@ -53,7 +53,7 @@ fn a_point_behind_the_thin_wall_is_lit_and_behind_the_thick_one_shadowed() {
 fn what_cannot_be_explained_is_told() {
     let refused = |setting: &str, probe: Probe| {
         let mut bench = Bench::new("csci3260", [320, 240], &[setting]);
-        let explained = bench.lab.explain(&bench.context.gl, probe);
+        let explained = bench.lab.explain(&bench.context.gl, probe, 1);
         explained.err().unwrap().to_string()
     };
     assert!(refused("shadows=off", Probe::Pixel([0, 0])).contains("expected shadows=on"));

@@ -84,8 +84,8 @@ pub trait Lab {
     /// what the ground truth sees.
     fn now(&self) -> Scene;
 
-    /// What the handout's shader computes at one place, step by step.
-    fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation>;
+    /// What the handout's shader computes for a light (from 1) at one place, step by step.
+    fn explain(&mut self, gl: &glow::Context, probe: Probe, light: usize) -> Result<Explanation>;
 }
 
 /// What a frame shows.

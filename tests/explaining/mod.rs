@@ -18,7 +18,7 @@ pub fn explained(lab: &str, settings: &[&str], pixels: u32, seed: u64) -> u32 {
         let pixel = [random.below(SIZE[0]), random.below(SIZE[1])];
         let explanation = bench
             .lab
-            .explain(&bench.context.gl, Probe::Pixel(pixel))
+            .explain(&bench.context.gl, Probe::Pixel(pixel), 1)
             .unwrap();
         let [x, y] = pixel;
         assert_eq!(explanation.color, Some(picture.get_pixel(x, y).0));

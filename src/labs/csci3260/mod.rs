@@ -362,7 +362,7 @@ impl Lab for Csci3260 {
         scene
     }
 
-    fn explain(&mut self, gl: &glow::Context, probe: Probe) -> Result<Explanation> {
+    fn explain(&mut self, gl: &glow::Context, probe: Probe, _light: usize) -> Result<Explanation> {
         self.explain_at(gl, probe)
     }
 }
