@@ -43,7 +43,8 @@ const LOOK_UPS: &[&str] = &[
     "$usampler = glGetUniformLocation($program, \"usampler\")",
 ];
 
-/// "First pass: drawing the shadow map", for a scene of fourteen meshes.
+/// "First pass: drawing the shadow map", for a scene of fourteen meshes. The last eight are the lighthouse's, which
+/// stands as a whole: its model matrix is sent once.
 fn first_pass() -> Vec<&'static str> {
     let mut steps = vec![
         "glBindFramebuffer(GL_FRAMEBUFFER, $frame_buffer)",
@@ -53,9 +54,11 @@ fn first_pass() -> Vec<&'static str> {
         "glUniformMatrix4fv($shadow_persp, 1, GL_FALSE, _)",
         "glUniformMatrix4fv($shadow_view, 1, GL_FALSE, _)",
     ];
-    for _ in 0..14 {
+    for mesh in 0..14 {
+        if mesh <= 14 - 8 {
+            steps.push("glUniformMatrix4fv($shadow_model, 1, GL_FALSE, _)");
+        }
         steps.extend([
-            "glUniformMatrix4fv($shadow_model, 1, GL_FALSE, _)",
             "glBindVertexArray(_)",
             "glDrawElements(GL_TRIANGLES, _, GL_UNSIGNED_INT, _)",
         ]);

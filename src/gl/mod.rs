@@ -12,6 +12,7 @@ mod read;
 mod shader;
 mod texture;
 pub mod trace;
+mod uniform;
 
 use glow::HasContext;
 
@@ -19,8 +20,9 @@ pub use check::{check_errors, check_framebuffer};
 pub use mesh::Mesh;
 pub use overlay::{Area, Overlay};
 pub use read::{read_depths, read_float_in_bytes, read_grey, read_rgb};
-pub use shader::{Program, Shaders, Uniform};
-pub use texture::{levels, solid_texture, texture};
+pub use shader::{Program, Shaders};
+pub use texture::{largest_texture, levels, solid_texture, texture};
+pub use uniform::Value;
 
 /// Names the calls from here until the returned guard is dropped: a heading in the trace, and a debug group where
 /// the driver has them (so that RenderDoc and apitrace show the handout's passes too).

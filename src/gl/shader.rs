@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use glam::{DMat3, DMat4, DVec3};
 use glow::HasContext;
 
 use super::mesh::ATTRIBUTES;
+use super::uniform::{Uniform, Value};
 use crate::scene::reading;
 use crate::{Error, Result};
 
@@ -82,10 +82,10 @@ struct Source {
     students: bool,
 }
 
-/// A linked program with the locations of its uniforms, looked up once.
+/// A linked program with its uniforms, whose locations are looked up once.
 pub struct Program {
     pub handle: glow::Program,
-    uniforms: HashMap<&'static str, Option<glow::UniformLocation>>,
+    uniforms: HashMap<&'static str, Uniform>,
 }
 
 impl Program {
@@ -135,9 +135,11 @@ impl Program {
                     "{names}: does not link: {message}"
                 ))));
             }
-            let look_up = |name: &&'static str| (*name, gl.get_uniform_location(handle, name));
-            let locations: HashMap<_, _> = uniforms.iter().map(look_up).collect();
-            let inactive = uniforms.iter().filter(|name| locations[**name].is_none());
+            let look_up = |name: &&'static str| (*name, Uniform::look_up(gl, handle, name));
+            let looked_up: HashMap<_, _> = uniforms.iter().map(look_up).collect();
+            let inactive = uniforms
+                .iter()
+                .filter(|name| !looked_up[**name].is_active());
             let inactive: Vec<_> = inactive.copied().collect();
             if !inactive.is_empty() && !students {
                 return Err(refused(Error::gl(format!(
@@ -153,7 +155,7 @@ impl Program {
             }
             Ok(Self {
                 handle,
-                uniforms: locations,
+                uniforms: looked_up,
             })
         }
     }
@@ -162,13 +164,11 @@ impl Program {
         unsafe { gl.delete_program(self.handle) };
     }
 
-    /// Sets a uniform of this program, which must be in use.
-    pub fn set(&self, gl: &glow::Context, name: &str, value: impl Uniform) {
-        let location = self.uniforms.get(name);
-        let location = location.unwrap_or_else(|| panic!("uniform {name} was not looked up"));
-        if location.is_some() {
-            value.upload(gl, location.as_ref());
-        }
+    /// Sets a uniform of this program, which must be in use. A value that it has already is not sent again.
+    pub fn set(&self, gl: &glow::Context, name: &str, value: impl Into<Value>) {
+        let uniform = self.uniforms.get(name);
+        let uniform = uniform.unwrap_or_else(|| panic!("uniform {name} was not looked up"));
+        uniform.set(gl, value.into());
     }
 }
 
@@ -207,45 +207,6 @@ fn first_message(log: &str) -> (Option<usize>, &str) {
             .unwrap_or("")
     });
     (digits.and_then(|digits| digits.parse().ok()), message)
-}
-
-/// A value that a uniform takes. Numbers are f64 until here, and rounded to f32 once.
-pub trait Uniform {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>);
-}
-
-impl Uniform for DMat4 {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
-        let columns = self.as_mat4().to_cols_array();
-        unsafe { gl.uniform_matrix_4_f32_slice(location, false, &columns) }
-    }
-}
-
-impl Uniform for DMat3 {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
-        let columns = self.as_mat3().to_cols_array();
-        unsafe { gl.uniform_matrix_3_f32_slice(location, false, &columns) }
-    }
-}
-
-impl Uniform for DVec3 {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
-        let [x, y, z] = self.as_vec3().to_array();
-        unsafe { gl.uniform_3_f32(location, x, y, z) }
-    }
-}
-
-impl Uniform for f64 {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
-        unsafe { gl.uniform_1_f32(location, self as f32) }
-    }
-}
-
-/// Samplers (their texture unit), choices and, as 0 or 1, `bool`s.
-impl Uniform for i32 {
-    fn upload(self, gl: &glow::Context, location: Option<&glow::UniformLocation>) {
-        unsafe { gl.uniform_1_i32(location, self) }
-    }
 }
 
 #[cfg(test)]

@@ -56,6 +56,11 @@ pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbImage]) -> Result<gl
     }
 }
 
+/// The most pixels that the driver allows along a side.
+pub fn largest_texture(gl: &glow::Context) -> u32 {
+    unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE) as u32 }
+}
+
 /// One white texel: an untextured object multiplies its colour by it, so that one shader draws both kinds.
 pub fn solid_texture(gl: &glow::Context) -> Result<glow::Texture> {
     texture(

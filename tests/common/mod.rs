@@ -80,6 +80,11 @@ impl Bench {
         self.lab.shadow_texture(1).ok().map(|map| map.scale)
     }
 
+    /// A frame, and nothing else that would be in the record.
+    pub fn render(&mut self) {
+        self.lab.render(&self.context.gl, Show::Picture).unwrap();
+    }
+
     fn draw(&mut self, show: Show) {
         self.lab.render(&self.context.gl, show).unwrap();
         gl::check_errors(&self.context.gl, "drawing").unwrap();

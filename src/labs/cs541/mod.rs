@@ -70,6 +70,8 @@ struct Cs541 {
 
     shaders: Shaders,
     programs: Programs,
+    /// The most texels that the driver allows along a side.
+    largest_map: u32,
     shadow_buffer: ShadowBuffer,
     /// What the shadow map was drawn from, while that still holds.
     drawn: Option<MapInputs>,
@@ -85,7 +87,8 @@ impl Cs541 {
         let mut settings = Settings::new(SETTINGS);
         settings::take_light(&scene, &mut settings)?;
         let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
-        let kind = ShadowBufferKind::new(gl, &settings);
+        let largest_map = gl::largest_texture(gl);
+        let kind = ShadowBufferKind::new(largest_map, &settings);
         let shadow_buffer = ShadowBuffer::new(gl, kind)?;
         // The driver compiles on one core; the textures' smaller levels need no driver and are averaged on another.
         let pictures = scene.objects.iter().map(|object| &object.material.texture);
@@ -134,6 +137,7 @@ impl Cs541 {
             textures,
             shaders,
             programs,
+            largest_map,
             shadow_buffer,
             drawn: None,
             sky,
@@ -232,7 +236,7 @@ impl Lab for Cs541 {
 
     #[doc(alias = "draw")]
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
-        let kind = ShadowBufferKind::new(gl, &self.settings);
+        let kind = ShadowBufferKind::new(self.largest_map, &self.settings);
         if kind != self.shadow_buffer.kind {
             self.shadow_buffer.delete(gl);
             self.shadow_buffer = ShadowBuffer::new(gl, kind)?;

@@ -87,6 +87,7 @@ impl Cs541 {
         program.set(gl, "light_color", color);
         program.set(gl, "ambient_color", self.scene.ambient);
         unsafe { gl.active_texture(glow::TEXTURE0) };
+        let mut bound = None;
         for (index, object) in self.scene.objects.iter().enumerate() {
             let Material {
                 diffuse,
@@ -94,7 +95,10 @@ impl Cs541 {
                 shininess,
                 ..
             } = object.material;
-            unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(self.textures[index])) };
+            let texture = self.textures[index];
+            if bound.replace(texture) != Some(texture) {
+                unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
+            }
             let model = self.model_from(eye, object);
             program.set(gl, "model_matrix", model);
             program.set(
@@ -215,7 +219,11 @@ impl Cs541 {
             program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
             program.set(gl, "model_matrix", model);
             program.set(gl, "diffuse_color", light.color);
-            dome.draw(gl);
+            if texture.is_some() {
+                dome.draw_again(gl);
+            } else {
+                dome.draw(gl);
+            }
         }
     }
 }

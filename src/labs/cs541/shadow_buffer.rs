@@ -113,10 +113,9 @@ impl ShadowBuffer {
 
 impl ShadowBufferKind {
     /// What the settings ask for, no larger than the driver allows.
-    pub fn new(gl: &glow::Context, settings: &Settings) -> Self {
-        let most = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE) };
+    pub fn new(largest_map: u32, settings: &Settings) -> Self {
         Self {
-            size: settings.number("map_size").min(f64::from(most)) as u32,
+            size: largest_map.min(settings.number("map_size") as u32),
             depth_format: settings.choice("depth_format"),
             filter: settings.choice("filter"),
         }

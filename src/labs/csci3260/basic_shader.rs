@@ -112,11 +112,12 @@ impl Csci3260 {
         program.set(gl, "AmbientLightColor", self.scene().ambient);
         program.set(gl, "DiffuseLightColor", light_color);
         program.set(gl, "SpecularLightColor", light_color);
+        unsafe { gl.active_texture(glow::TEXTURE0) };
+        let mut bound = None;
         self.draw_scene(gl, |mesh, texture| {
             let object = &self.scene().objects[mesh.object];
-            unsafe {
-                gl.active_texture(glow::TEXTURE0);
-                gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+            if bound.replace(texture) != Some(texture) {
+                unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
             }
             self.set_transformations(gl, program, object);
             program.set(gl, "M", self.model_from_eye(object));
@@ -192,7 +193,7 @@ impl Csci3260 {
     pub(super) fn draw_scene(
         &self,
         gl: &glow::Context,
-        send: impl Fn(&Mesh, glow::Texture) -> bool,
+        mut send: impl FnMut(&Mesh, glow::Texture) -> bool,
     ) {
         for model in self.models[self.place()].iter().flatten() {
             let chosen = self.chosen_texture(&model.name);

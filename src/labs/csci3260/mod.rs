@@ -97,6 +97,8 @@ struct Csci3260 {
 
     shaders: Shaders,
     programs: Programs,
+    /// The most texels that the driver allows along a side.
+    largest_map: u32,
     target: RenderTarget,
     /// What the shadow map was drawn from, while that still holds.
     drawn: Option<MapInputs>,
@@ -127,7 +129,8 @@ impl Csci3260 {
         settings::area(&scene)?;
         let settings = Settings::new(SETTINGS);
         let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
-        let target = RenderTarget::new(gl, map_size(gl, &settings))?;
+        let largest_map = gl::largest_texture(gl);
+        let target = RenderTarget::new(gl, map_size(largest_map, &settings))?;
         let programs = Programs::install(gl, &shaders)?;
         unsafe { gl.enable(glow::DEPTH_TEST) };
         let mut lab = Self {
@@ -140,6 +143,7 @@ impl Csci3260 {
             models: [None, None],
             shaders,
             programs,
+            largest_map,
             target,
             drawn: None,
             visibility: None,
@@ -210,7 +214,7 @@ impl Csci3260 {
     #[doc(alias = "paintGL")]
     fn paint_gl(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.send_data_to_opengl(gl)?;
-        let size = map_size(gl, &self.settings);
+        let size = map_size(self.largest_map, &self.settings);
         if size != self.target.size {
             self.target.delete(gl);
             self.target = RenderTarget::new(gl, size)?;
@@ -233,9 +237,8 @@ impl Csci3260 {
 }
 
 /// What the settings ask for, no larger than the driver allows.
-fn map_size(gl: &glow::Context, settings: &Settings) -> u32 {
-    let most = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE) };
-    settings.number("map_size").min(f64::from(most)) as u32
+fn map_size(largest_map: u32, settings: &Settings) -> u32 {
+    largest_map.min(settings.number("map_size") as u32)
 }
 
 /// The camera after an orbit around the point that it looks at: to the right, then up, in degrees.

@@ -36,11 +36,12 @@ impl Model {
         others: impl Fn(&str) -> Option<File>,
     ) -> Result<Vec<Self>> {
         let mut models: Vec<Self> = Vec::new();
+        let white = gl::solid_texture(gl)?;
         for (object, index) in scene.objects.iter().zip(0..) {
             let name = &object.name;
             let mut textures = vec![match &object.material.texture {
                 Some(picture) => gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?,
-                None => gl::solid_texture(gl)?,
+                None => white,
             }];
             if let Some(file) = others(name) {
                 let picture = load_texture(file)?;
