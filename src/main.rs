@@ -3,8 +3,6 @@
 #![forbid(unsafe_code)]
 
 mod cli;
-mod measuring;
-mod timings;
 
 use std::process::ExitCode;
 

@@ -259,6 +259,34 @@ fn the_same_state_is_the_same_picture_whatever_came_before() {
     assert!(differing(&straight, &bench.picture()) < 20);
 }
 
+/// "Can set different visibilities to diffuse and specular light."
+#[test]
+fn the_specular_light_has_a_visibility_of_its_own() {
+    // The eye where the sea mirrors the light beside the dolphin's shadow.
+    let mut scene = course();
+    let mirror = dvec3(0.0, -1.0, 2.8);
+    scene.camera.look = -dvec3(-0.5, 2.0, -2.0);
+    scene.camera.eye = mirror - scene.camera.look;
+    let start = |settings: &[&str]| with_scene(scene.clone(), settings);
+    let with = |settings: &[&str]| start(settings).picture();
+    let (half, none) = (with(&[]), with(&["specular_visibility=0"]));
+    let visibility = start(&[]).visibility();
+    let mut darker = 0;
+    for (x, y, pixel) in half.enumerate_pixels() {
+        let less = none.get_pixel(x, y);
+        if visibility.get_pixel(x, y).0[0] == 255 {
+            assert_eq!(pixel, less, "a lit pixel, {x},{y}");
+        } else {
+            assert!(pixel.0.iter().zip(less.0).all(|(a, b)| *a >= b), "{x},{y}");
+            darker += usize::from(pixel != less);
+        }
+    }
+    assert!(darker > 100, "{darker}");
+    // The control: unshadowed there is nothing to weaken.
+    let off = ["shadows=off", "specular_visibility=0"];
+    assert_eq!(differing(&with(&off[..1]), &with(&off)), 0);
+}
+
 #[test]
 fn every_setting_is_read() {
     let changes = |base: &[&str], setting: &str| {

@@ -103,7 +103,7 @@ const ROOMS: &[Room] = &[
 ];
 
 /// The files beside `src/main.rs` that belong to the program and not to the library.
-const PROGRAM: &[&str] = &["cli", "measuring", "timings"];
+const PROGRAM: &[&str] = &["cli"];
 
 /// The crates that only some rooms may name: the driver's calls, its contexts, and windows.
 const FENCED: &[&str] = &["glow", "glutin", "glutin_winit", "winit"];
@@ -203,7 +203,7 @@ fn check_file(source: &Source, labs: &BTreeSet<String>) -> Vec<String> {
     complaints
 }
 
-/// The module path of a file: `src/labs/cs541/mod.rs` is `["labs", "cs541"]`, `src/cli.rs` is `["main", "cli"]`.
+/// The module path of a file: `src/labs/cs541/mod.rs` is `["labs", "cs541"]`, `src/cli/mod.rs` is `["main", "cli"]`.
 fn module(path: &str) -> Vec<String> {
     let path = path.trim_start_matches("src/").trim_end_matches(".rs");
     let path = path.strip_suffix("/mod").unwrap_or(path);
@@ -475,7 +475,7 @@ fn a_room_that_names_a_fenced_crate_is_reported() {
         ("src/headless.rs", "use winit::event_loop::EventLoop;"),
         ("src/headless.rs", "glutin_winit::finalize_window();"),
         ("src/labs/mod.rs", "fn key(key: winit::keyboard::Key) {}"),
-        ("src/cli.rs", "fn draw(gl: &glow::Context) {}"),
+        ("src/cli/mod.rs", "fn draw(gl: &glow::Context) {}"),
         (
             "src/main.rs",
             "#![deny(unsafe_code)]\nuse glow::HasContext;",
@@ -567,8 +567,8 @@ fn what_the_house_allows_is_not_reported() {
             "#![forbid(unsafe_code)]\nuse shadowlab::{headless, labs::{self, Show}}; use crate::f;",
         ),
         (
-            "src/cli.rs",
-            "use shadowlab::{Error, headless}; use crate::timings::Timings; use super::fail;",
+            "src/cli/mod.rs",
+            "use shadowlab::{Error, headless}; use crate::cli::state::State; use super::fail;",
         ),
         (
             "src/lib.rs",

@@ -22,6 +22,9 @@ uniform vec3 lightInvDir;
 // PCF: the fragment's own texel and one on each side, so that the blur grows with the texels.
 const vec2 taps[5] = vec2[](vec2(0, 0), vec2(-1, 0), vec2(1, 0), vec2(0, -1), vec2(0, 1));
 
+// What a full shadow leaves of the specular light; of the diffuse light it leaves 0.5.
+uniform float specularVisibility;
+
 uniform vec3 materialColor;
 uniform vec3 MaterialSpecularColor;
 uniform vec3 AmbientLightColor;
@@ -59,6 +62,8 @@ void main()
     }
     if (!shadows)
         visibility = 1.0;
+    // Can set different visibilities to diffuse and specular light.
+    float visibilitySpecular = mix(specularVisibility, 1.0, (visibility - 0.5) / 0.5);
 
     vec3 MaterialDiffuseColor = materialColor * texture(objTexture, UV).rgb;
     vec3 MaterialAmbientColor = MaterialDiffuseColor;
@@ -70,7 +75,7 @@ void main()
     color = vec4(
         // Ambient: shadow mapping has no effect on ambient light
         MaterialAmbientColor * AmbientLightColor +
-        // Diffuse and specular: 'visibility' controls both
+        // Diffuse and specular: each by its visibility
         visibility * MaterialDiffuseColor * DiffuseLightColor * DiffuseBrightness +
-        visibility * MaterialSpecularColor * SpecularLightColor * pow(SpecularBrightness, 50.0), 1);
+        visibilitySpecular * MaterialSpecularColor * SpecularLightColor * pow(SpecularBrightness, 50.0), 1);
 }

@@ -33,6 +33,8 @@ pub struct Handout {
     pub size: [u32; 2],
     pub keys: &'static [(&'static str, &'static str)],
     pub settings: &'static [Setting],
+    /// What the handout shows, in its order.
+    pub stages: &'static [Stage],
     /// How many lights have a shadow of their own.
     pub lights: usize,
     /// Makes the lab's own remedy against acne use this bias, in depth as the map stores it.
@@ -40,6 +42,15 @@ pub struct Handout {
     /// The scene that shows each of the handout's points.
     pub scene: fn() -> Result<Scene>,
     pub start: Start,
+}
+
+/// A state of a lab that shows one point of its handout.
+pub struct Stage {
+    /// The name of its picture.
+    pub name: &'static str,
+    /// Options of `shadowlab screenshot`, with spaces between them.
+    pub options: &'static str,
+    pub caption: &'static str,
 }
 
 /// Set-up of a lab for a scene; a student's own shaders are in the folder, if one is given.

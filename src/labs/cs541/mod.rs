@@ -21,6 +21,7 @@ mod scene;
 mod second_pass;
 mod settings;
 mod shadow_buffer;
+mod stages;
 
 use std::path::Path;
 
@@ -46,6 +47,7 @@ pub static HANDOUT: Handout = Handout {
     size: [500, 500],
     keys: KEYS,
     settings: SETTINGS,
+    stages: stages::STAGES,
     lights: 1,
     set_bias: settings::set_bias,
     scene: scene::default_scene,

@@ -30,6 +30,7 @@ pub fn install_shaders(gl: &glow::Context, shaders: &Shaders) -> Result<Program>
     let _pass = gl::pass(gl, "set-up: installShaders");
     let shading = [
         "M",
+        "specularVisibility",
         "objTexture",
         "materialColor",
         "MaterialSpecularColor",
@@ -108,6 +109,8 @@ impl Csci3260 {
         self.select_window(gl, [red, green, blue, 1.0]);
         self.set_shadow_test(gl, program);
         program.set(gl, "objTexture", 0);
+        let specular_visibility = self.settings.number("specular_visibility");
+        program.set(gl, "specularVisibility", specular_visibility);
         let light_color = self.light().color;
         program.set(gl, "AmbientLightColor", self.scene().ambient);
         program.set(gl, "DiffuseLightColor", light_color);

@@ -19,6 +19,7 @@ mod models;
 mod scene;
 mod settings;
 mod shadow_map;
+mod stages;
 
 use std::path::Path;
 
@@ -42,6 +43,7 @@ pub static HANDOUT: Handout = Handout {
     size: [800, 600],
     keys: KEYS,
     settings: SETTINGS,
+    stages: stages::STAGES,
     lights: 1,
     set_bias: settings::set_bias,
     scene: scene::course,

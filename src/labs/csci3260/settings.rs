@@ -49,6 +49,16 @@ pub const SETTINGS: &[Setting] = &[
         help: "the error margin, in depth; slope: at 45 degrees, and clamped to twice as much",
     },
     Setting {
+        name: "specular_visibility",
+        kind: Kind::Number {
+            default: 0.5,
+            least: 0.0,
+            most: 1.0,
+            whole: false,
+        },
+        help: "what a full shadow leaves of the specular light; of the diffuse light it leaves 0.5",
+    },
+    Setting {
         name: "map_size",
         kind: Kind::Number {
             default: 1024.0,

@@ -14,7 +14,9 @@ use shadowlab::progress::Progress;
 use shadowlab::scene::texture;
 use shadowlab::{Error, Result, picture};
 
-use crate::cli::{Drawing, Running, State, check_light, print};
+use super::print;
+use super::state::{Drawing, Running, State};
+use super::values::check_light;
 
 #[derive(Args)]
 pub struct TruthCommand {

@@ -1,0 +1,128 @@
+//! `shadowlab screenshot`: a lab's picture, or what else there is to see of it, in a file.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use shadowlab::headless::Choice;
+use shadowlab::labs::{self, Show};
+use shadowlab::{Result, gl, picture};
+
+use super::state::{Changes, Drawing, Running, State};
+use super::values::check_light;
+use super::{gallery, print};
+
+#[derive(Args)]
+pub struct Screenshot {
+    /// The lab's name, as `shadowlab labs` lists it
+    #[arg(required_unless_present = "all")]
+    lab: Option<String>,
+    #[command(flatten)]
+    changes: Changes,
+    #[command(flatten)]
+    drawing: Drawing,
+    /// The file to write [default: LAB.png]
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// What the picture shows
+    #[arg(long, value_enum, default_value_t = Shown::Picture)]
+    show: Shown,
+    /// Which of the lab's lights, for visibility and the maps
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    light: usize,
+    /// Draw every lab in every stage of its handout into this folder, with an index page
+    #[arg(long, value_name = "DIR", conflicts_with_all = [
+        "lab", "output", "show", "light", "scene", "set", "keys", "time", "glsl", "frames", "timings",
+    ])]
+    all: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Shown {
+    /// The lab's picture
+    Picture,
+    /// 255 lit, 0 in shadow by the lab's own test, 255 where there is no surface
+    Visibility,
+    /// The depth map for the eye: distance from the light, black near, white far
+    ShadowMap,
+    /// The depth texture as it is: 16-bit PNG, or 32-bit floats if the file ends in .pfm
+    DepthRaw,
+}
+
+impl Screenshot {
+    pub fn run(self) -> Result<()> {
+        let written = match &self.all {
+            Some(folder) => gallery::write(folder, self.changes.size, &self.drawing.device)?,
+            None => self.write()?,
+        };
+        print(&format!("{}\n", written.display()))
+    }
+
+    /// Another size, if one is given, and another renderer.
+    pub fn draw_on(&mut self, size: Option<[u32; 2]>, device: &Choice) {
+        self.changes.size = size.or(self.changes.size);
+        self.drawing.device = device.clone();
+    }
+
+    /// Returns the file's name.
+    pub fn write(self) -> Result<PathBuf> {
+        let state = State {
+            lab: self.lab.expect("clap asks for it"),
+            changes: self.changes,
+        };
+        let handout = labs::find(&state.lab)?;
+        check_light(handout, self.light)?;
+        let output = self.output;
+        let output = output.unwrap_or_else(|| format!("{}.png", handout.name).into());
+        picture::check_name(
+            &output,
+            if self.show == Shown::DepthRaw {
+                &["png", "pfm"]
+            } else {
+                &["png"]
+            },
+        )?;
+
+        let mut running = state.start(&self.drawing, &[], false)?;
+        let show = match self.show {
+            Shown::Visibility => Show::Visibility { light: self.light },
+            _ => Show::Picture,
+        };
+        running.draw(self.drawing.frames, show)?;
+        running.write(self.show, self.light, &output)?;
+        running.timings.lap("file");
+        Ok(output)
+    }
+}
+
+impl Running {
+    fn write(&mut self, shown: Shown, light: usize, output: &Path) -> Result<()> {
+        let gl = &self.context.gl;
+        let notes = picture::notes(&self.context.renderer);
+        match shown {
+            Shown::Picture => {
+                let pixels = gl::read_rgb(gl, self.size);
+                self.timings.lap("frames");
+                picture::write_rgb(output, &pixels, &notes)
+            }
+            Shown::Visibility => {
+                let pixels = gl::read_grey(gl, self.size);
+                self.timings.lap("frames");
+                picture::write_grey(output, &pixels, &notes)
+            }
+            Shown::ShadowMap | Shown::DepthRaw => {
+                let map = self.lab.shadow_texture(light)?;
+                let scale = map.scale;
+                let depths = gl::read_depths(gl, map.texture, [scale.size; 2]);
+                self.timings.lap("frames");
+                if shown == Shown::DepthRaw {
+                    return picture::write_depths(output, &depths, &notes);
+                }
+                picture::write_grey(
+                    output,
+                    &depths.linearised(scale.projection, scale.near, scale.far),
+                    &notes,
+                )
+            }
+        }
+    }
+}

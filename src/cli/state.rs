@@ -1,0 +1,188 @@
+//! A lab, brought to the state that a command line names.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use shadowlab::gl;
+use shadowlab::headless::{Choice, Headless};
+use shadowlab::labs::{self, Handout, Lab, Show, parse_keys};
+use shadowlab::scene::{self, Scene};
+use shadowlab::{Error, Result};
+
+use super::timings::Timings;
+use super::values::{parse_size, parse_time};
+
+/// The step of time between the frames of --frames, in seconds.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// Which state of which lab.
+#[derive(Args)]
+pub struct State {
+    /// The lab's name, as `shadowlab labs` lists it
+    pub lab: String,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// How a lab's state differs from the one that it starts in.
+#[derive(Clone, Args)]
+pub struct Changes {
+    /// Draw the scene of this file in place of the lab's own
+    #[arg(long, value_name = "FILE.toml")]
+    scene: Option<PathBuf>,
+    /// Let the scene name files outside of its folder
+    #[arg(long, requires = "scene")]
+    allow_outside: bool,
+    /// Size of the picture in pixels [default: the scene's, or the course's window]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Give a setting another value; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse
+    #[arg(
+        long,
+        value_name = "KEYS",
+        default_value = "",
+        hide_default_value = true
+    )]
+    pub keys: String,
+    /// Seconds that pass before the first frame
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_time, allow_negative_numbers = true)]
+    pub time: f64,
+    /// Use the shaders of this folder in place of those with the same names
+    #[arg(long, value_name = "DIR")]
+    pub glsl: Option<PathBuf>,
+}
+
+/// How frames are drawn without a display.
+#[derive(Args)]
+pub struct Drawing {
+    /// Frames to draw, 1/60 s apart; the last one is kept
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: u32,
+    /// Which renderer draws: auto, software, or part of a renderer's name
+    #[arg(long, value_name = "NAME", default_value = "auto")]
+    pub device: Choice,
+    /// Print how long each part took, on standard error
+    #[arg(long)]
+    timings: bool,
+}
+
+/// A lab in a context, brought to the state that the options name, before its first frame.
+pub struct Running {
+    // The lab's GL objects go before their context does.
+    pub lab: Box<dyn Lab>,
+    pub context: Headless,
+    pub name: &'static str,
+    pub size: [u32; 2],
+    // Last: it counts their end, too.
+    pub timings: Timings,
+}
+
+impl State {
+    /// `first` are settings of the command's own, which the user's `--set` may overrule.
+    pub fn start(&self, drawing: &Drawing, first: &[&str], record: bool) -> Result<Running> {
+        let mut timings = Timings::new(drawing.timings);
+        let handout = labs::find(&self.lab)?;
+        parse_keys(&self.changes.keys)?;
+        // A scene file says the size that the context must have, so it goes first.
+        let students_scene = self.students_scene()?;
+        let scene_size = students_scene.as_ref().and_then(|scene| scene.size);
+        let size = self.changes.size.or(scene_size).unwrap_or(handout.size);
+
+        // The driver's start and the lab's own scene have nothing to do with each other, so they go side by side.
+        let (context, scene) = std::thread::scope(|scope| {
+            let scene = scope.spawn(move || students_scene.map_or_else(handout.scene, Ok));
+            let context = Headless::open(&drawing.device, size, record);
+            (
+                context,
+                scene.join().expect("a scene is built without panic"),
+            )
+        });
+        let (context, scene) = (context?, scene?);
+        timings.lap("EGL, context, scene");
+
+        let mut lab = (handout.start)(&context.gl, scene, self.changes.glsl.as_deref())
+            .map_err(|error| self.about_scene(error))?;
+        lab.resize(size);
+        for assignment in first {
+            lab.settings().set(assignment)?;
+        }
+        self.bring(handout, lab.as_mut())?;
+        timings.lap("shaders, meshes, textures");
+        Ok(Running {
+            lab,
+            context,
+            name: handout.name,
+            size,
+            timings,
+        })
+    }
+
+    /// The options but for size, keys and time, as another command line would repeat them.
+    pub fn options(&self) -> Vec<String> {
+        let mut options = Vec::new();
+        if let Some(path) = &self.changes.scene {
+            options.extend(["--scene".to_owned(), path.display().to_string()]);
+        }
+        if self.changes.allow_outside {
+            options.push("--allow-outside".to_owned());
+        }
+        for assignment in &self.changes.set {
+            options.extend(["--set".to_owned(), assignment.clone()]);
+        }
+        if let Some(folder) = &self.changes.glsl {
+            options.extend(["--glsl".to_owned(), folder.display().to_string()]);
+        }
+        options
+    }
+
+    /// Brings a lab that has just started to this state.
+    pub fn bring(&self, handout: &Handout, lab: &mut dyn Lab) -> Result<()> {
+        for assignment in &self.changes.set {
+            lab.settings().set(assignment)?;
+        }
+        for input in parse_keys(&self.changes.keys)? {
+            if !lab.input(input) {
+                return Err(Error::usage(format!(
+                    "--keys: {} has no key {input}, expected one of {}",
+                    handout.name,
+                    handout
+                        .keys
+                        .iter()
+                        .map(|(keys, _)| *keys)
+                        .collect::<Vec<_>>()
+                        .join(" ")
+                )));
+            }
+        }
+        lab.advance(self.changes.time);
+        Ok(())
+    }
+
+    pub fn students_scene(&self) -> Result<Option<Scene>> {
+        let load = |path| scene::file::load(path, self.changes.allow_outside);
+        self.changes.scene.as_deref().map(load).transpose()
+    }
+
+    /// A scene that a lab has no use for is wrong in its file, not on the command line.
+    fn about_scene(&self, error: Error) -> Error {
+        match (&self.changes.scene, error) {
+            (Some(path), Error::Usage(message)) => Error::input(path, None, message),
+            (_, error) => error,
+        }
+    }
+}
+
+impl Running {
+    pub fn draw(&mut self, frames: u32, show: Show) -> Result<()> {
+        for frame in 0..frames {
+            if frame > 0 {
+                self.lab.advance(FRAME);
+            }
+            self.lab.render(&self.context.gl, show)?;
+        }
+        gl::check_errors(&self.context.gl, "drawing")
+    }
+}
