@@ -3,45 +3,12 @@
 mod common;
 mod desktop;
 
-use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
 use common::{SHARE_BEYOND, compare, work_folder};
-use desktop::{Desktop, Viewer};
+use desktop::{Desktop, Viewer, assert_shot_is_headless, headless};
 use image::{DynamicImage, RgbImage};
-
-/// The picture that a command line of the viewer's draws without a display.
-fn headless(folder: &Path, line: &str) -> DynamicImage {
-    let program = Path::new(env!("CARGO_BIN_EXE_shadowlab"));
-    let file = folder.join("headless.png");
-    let path = std::env::var("PATH").unwrap();
-    let ran = Command::new("sh")
-        .arg("-c")
-        .arg(format!("{line} --device software --output headless.png"))
-        .current_dir(folder)
-        .env(
-            "PATH",
-            format!("{}:{path}", program.parent().unwrap().display()),
-        )
-        .output()
-        .unwrap();
-    let told = String::from_utf8_lossy(&ran.stderr);
-    assert!(ran.status.success(), "{line}: {told}");
-    image::open(file).unwrap()
-}
-
-/// A screenshot of the viewer's, and what its own command line draws headless, are one picture.
-fn assert_shot_is_headless(folder: &Path, viewer: &Viewer) -> (RgbImage, String) {
-    let (file, line) = viewer.shoot();
-    let shot = image::open(&file).unwrap();
-    assert_eq!(
-        compare(&headless(folder, &line), &shot, SHARE_BEYOND),
-        Ok(()),
-        "{line}"
-    );
-    (shot.to_rgb8(), line)
-}
 
 fn is_same(expected: &DynamicImage, screen: &RgbImage) -> bool {
     compare(expected, &screen.clone().into(), SHARE_BEYOND).is_ok()

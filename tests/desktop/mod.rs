@@ -8,8 +8,10 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use image::{Rgb, RgbImage};
+use image::{DynamicImage, Rgb, RgbImage};
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask};
+
+use super::common::{SHARE_BEYOND, compare};
 
 /// How long a test waits for what must come, on a busy machine too.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -114,9 +116,13 @@ pub struct Viewer<'a> {
 impl<'a> Viewer<'a> {
     /// Returns once the window has its first frame and the keyboard.
     pub fn open(desktop: &'a Desktop, options: &str) -> Self {
+        Self::open_lab(desktop, "cs541", options)
+    }
+
+    pub fn open_lab(desktop: &'a Desktop, lab: &str, options: &str) -> Self {
         let mut process = desktop
             .command(env!("CARGO_BIN_EXE_shadowlab"))
-            .args(["view", "cs541"])
+            .args(["view", lab])
             .args(options.split_whitespace())
             .stdout(Stdio::piped())
             .spawn()
@@ -135,13 +141,14 @@ impl<'a> Viewer<'a> {
             id: String::new(),
         };
         let first = viewer.line();
-        assert!(first.contains("cs541 in a window"), "{first}");
+        assert!(first.contains(&format!("{lab} in a window")), "{first}");
         let began = Instant::now();
         // The first frame writes the title.
         while viewer.id.is_empty() {
             assert!(began.elapsed() < PATIENCE, "no window");
             sleep(Duration::from_millis(20));
-            viewer.id = desktop.xdotool(&["search", "--onlyvisible", "--name", "^cs541, "]);
+            let title = format!("^{lab}, ");
+            viewer.id = desktop.xdotool(&["search", "--onlyvisible", "--name", &title]);
         }
         // Without a window manager nobody else gives the window the keyboard.
         desktop.xdotool(&["windowfocus", "--sync", &viewer.id]);
@@ -225,4 +232,36 @@ impl Drop for Viewer<'_> {
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
+}
+
+/// The picture that a command line of the viewer's draws without a display.
+pub fn headless(folder: &Path, line: &str) -> DynamicImage {
+    let program = Path::new(env!("CARGO_BIN_EXE_shadowlab"));
+    let file = folder.join("headless.png");
+    let path = std::env::var("PATH").unwrap();
+    let ran = Command::new("sh")
+        .arg("-c")
+        .arg(format!("{line} --device software --output headless.png"))
+        .current_dir(folder)
+        .env(
+            "PATH",
+            format!("{}:{path}", program.parent().unwrap().display()),
+        )
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{line}: {told}");
+    image::open(file).unwrap()
+}
+
+/// A screenshot of the viewer's, and what its own command line draws headless, are one picture.
+pub fn assert_shot_is_headless(folder: &Path, viewer: &Viewer) -> (RgbImage, String) {
+    let (file, line) = viewer.shoot();
+    let shot = image::open(&file).unwrap();
+    assert_eq!(
+        compare(&headless(folder, &line), &shot, SHARE_BEYOND),
+        Ok(()),
+        "{line}"
+    );
+    (shot.to_rgb8(), line)
 }
