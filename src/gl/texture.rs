@@ -1,7 +1,7 @@
 //! Colour textures for objects.
 
 use glow::{HasContext, PixelUnpackData};
-use image::{RgbImage, imageops};
+use image::{RgbaImage, imageops};
 
 use super::trace::{ObjectKind, name_object};
 use crate::{Error, Result};
@@ -11,7 +11,7 @@ use crate::{Error, Result};
 ///
 /// They are averaged here: a software driver compiles shaders for `glGenerateMipmap`, which takes it longer than to draw
 /// the whole first frame.
-pub fn levels(picture: &RgbImage) -> Vec<RgbImage> {
+pub fn levels(picture: &RgbaImage) -> Vec<RgbaImage> {
     let mut levels = vec![imageops::flip_vertical(picture)];
     while let Some(last) = levels.last()
         && last.dimensions() != (1, 1)
@@ -27,13 +27,15 @@ pub fn levels(picture: &RgbImage) -> Vec<RgbImage> {
 }
 
 /// A repeating, mipmapped texture, with its name for the trace.
-pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbImage]) -> Result<glow::Texture> {
+///
+/// Where the picture has no transparent pixel, the texture has no alpha: it reads as 1 then, however it is filtered.
+pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbaImage]) -> Result<glow::Texture> {
+    let opaque = levels[0].pixels().all(|pixel| pixel.0[3] == u8::MAX);
+    let internal_format = if opaque { glow::RGB } else { glow::RGBA };
     unsafe {
         let texture = gl.create_texture().map_err(Error::gl)?;
         name_object(ObjectKind::Texture, texture.0.get(), name);
         gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        // Rows of RGB bytes stand without gaps; GL expects them at multiples of 4 unless told.
-        gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
         gl.tex_parameter_i32(
             glow::TEXTURE_2D,
             glow::TEXTURE_MIN_FILTER,
@@ -43,11 +45,11 @@ pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbImage]) -> Result<gl
             gl.tex_image_2d(
                 glow::TEXTURE_2D,
                 number as i32,
-                glow::RGB as i32,
+                internal_format as i32,
                 level.width() as i32,
                 level.height() as i32,
                 0,
-                glow::RGB,
+                glow::RGBA,
                 glow::UNSIGNED_BYTE,
                 PixelUnpackData::Slice(Some(level.as_raw())),
             );
@@ -66,6 +68,6 @@ pub fn solid_texture(gl: &glow::Context) -> Result<glow::Texture> {
     texture(
         gl,
         "white",
-        &[RgbImage::from_pixel(1, 1, image::Rgb([255; 3]))],
+        &[RgbaImage::from_pixel(1, 1, image::Rgba([255; 4]))],
     )
 }

@@ -3,7 +3,8 @@
 //! It knows no matrix of a lab and no depth map, so that it cannot share their faults. For each pixel centre a ray
 //! goes from the camera to the nearest triangle, and from there to the light; the triangle that is seen is left out of
 //! the second ray by its identity, never by an offset. What casts in OpenGL casts here: the first pass discards
-//! nothing, so every triangle of an object that casts is opaque, from both sides.
+//! nothing, so every triangle of an object that casts is opaque, from both sides. A surface is solid for the camera's ray,
+//! too: where a lab cuts holes by a texture's alpha, the picture shows what lies behind, and the truth does not.
 
 mod area;
 mod light;

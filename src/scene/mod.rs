@@ -29,7 +29,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Light that comes from everywhere and is never shadowed.
     pub ambient: DVec3,
-    pub sky: Option<Arc<image::RgbImage>>,
+    pub sky: Option<Arc<image::RgbaImage>>,
     pub objects: Vec<Object>,
 }
 
@@ -60,7 +60,8 @@ pub struct Material {
     pub diffuse: DVec3,
     pub specular: DVec3,
     pub shininess: f64,
-    pub texture: Option<Arc<image::RgbImage>>,
+    /// With alpha, which a lab may cut holes by, or pass over.
+    pub texture: Option<Arc<image::RgbaImage>>,
 }
 
 impl Default for Material {

@@ -11,7 +11,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use image::RgbImage;
+use image::RgbaImage;
 
 use super::texture;
 use crate::{Error, Result};
@@ -110,7 +110,7 @@ pub struct Files<'a> {
 }
 
 struct Pictures {
-    decoded: HashMap<PathBuf, Arc<RgbImage>>,
+    decoded: HashMap<PathBuf, Arc<RgbaImage>>,
     /// Bytes that may still be decoded.
     room: u64,
 }
@@ -156,8 +156,8 @@ impl<'a> Files<'a> {
         (self.read)(path, limit)
     }
 
-    /// A PNG or JPEG as RGB.
-    pub fn picture(&self, path: &Path) -> Result<Arc<RgbImage>> {
+    /// A PNG or JPEG as RGB and alpha.
+    pub fn picture(&self, path: &Path) -> Result<Arc<RgbaImage>> {
         let pictures = &mut *self.pictures.borrow_mut();
         if let Some(known) = pictures.decoded.get(path) {
             return Ok(Arc::clone(known));

@@ -1,9 +1,9 @@
-//! Pictures for textures: PNG and JPEG of every kind, as RGB with 8 bits each.
+//! Pictures for textures: PNG and JPEG of every kind, as RGB with 8 bits each, and alpha: opaque where a file has none.
 
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{ImageFormat, ImageReader, Limits, RgbImage};
+use image::{ImageFormat, ImageReader, Limits, RgbaImage};
 
 use super::reading;
 use crate::{Error, Result};
@@ -13,8 +13,8 @@ const MOST_SIDE: u32 = 16_384;
 /// What all pictures of a scene may take in memory, and what the decoder may take for one.
 pub const MOST_BYTES: u64 = 1 << 30;
 
-/// A picture in memory, which messages call `path`; `room` is the most bytes that it may have as RGB.
-pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbImage> {
+/// A picture in memory, which messages call `path`; `room` is the most bytes that it may have as RGBA.
+pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbaImage> {
     let wrong = |message: String| Error::input(path, None, message);
     let format = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
@@ -34,7 +34,7 @@ pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbImage> {
             "found {width}×{height} pixels, expected at most {MOST_SIDE}×{MOST_SIDE}"
         )));
     }
-    if 3 * u64::from(width) * u64::from(height) > room {
+    if 4 * u64::from(width) * u64::from(height) > room {
         return Err(wrong(format!(
             "found {width}×{height} pixels more, expected at most {} MiB of pictures in a scene",
             MOST_BYTES >> 20
@@ -44,11 +44,11 @@ pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbImage> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    Ok(reader.decode().map_err(damaged)?.into_rgb8())
+    Ok(reader.decode().map_err(damaged)?.into_rgba8())
 }
 
 /// A picture from a file that nobody has checked.
-pub fn load(path: &Path) -> Result<RgbImage> {
+pub fn load(path: &Path) -> Result<RgbaImage> {
     decode(
         path,
         &reading::read(path, reading::PICTURE_LIMIT)?,
@@ -57,7 +57,7 @@ pub fn load(path: &Path) -> Result<RgbImage> {
 }
 
 /// What a picture takes in memory.
-pub fn bytes(picture: &RgbImage) -> u64 {
+pub fn bytes(picture: &RgbaImage) -> u64 {
     picture.as_raw().len() as u64
 }
 
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_becomes_rgb() {
+    fn every_kind_becomes_rgb_and_alpha() {
         let grey = DynamicImage::from(image::GrayImage::from_pixel(3, 2, image::Luma([200])));
         let decoded = |bytes: &[u8]| decode(Path::new("a.png"), bytes, MOST_BYTES).unwrap();
         for kind in [
@@ -90,16 +90,31 @@ mod tests {
             let picture = decoded(&written(&kind, ImageFormat::Png));
             let kind = ExtendedColorType::from(kind.color());
             assert_eq!(picture.dimensions(), (3, 2), "{kind:?}");
-            assert!(picture.iter().all(|byte| *byte == 200), "{kind:?}");
+            let opaque = |pixel: &image::Rgba<u8>| pixel.0 == [200, 200, 200, 255];
+            assert!(picture.pixels().all(opaque), "{kind:?}");
         }
         for kind in [grey.clone(), grey.to_rgb8().into()] {
             let picture = decoded(&written(&kind, ImageFormat::Jpeg));
-            assert!(picture.iter().all(|byte| byte.abs_diff(200) <= 2));
+            let near = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().all(|b| b.abs_diff(200) <= 2);
+            assert!(
+                picture
+                    .pixels()
+                    .all(|pixel| near(pixel) && pixel.0[3] == 255)
+            );
         }
     }
 
     #[test]
-    fn a_palette_becomes_rgb() {
+    fn alpha_is_kept() {
+        let mut picture = RgbaImage::from_pixel(2, 1, image::Rgba([10, 20, 30, 255]));
+        picture.put_pixel(1, 0, image::Rgba([40, 50, 60, 70]));
+        let bytes = written(&picture.clone().into(), ImageFormat::Png);
+        let decoded = decode(Path::new("a.png"), &bytes, MOST_BYTES).unwrap();
+        assert_eq!(decoded, picture);
+    }
+
+    #[test]
+    fn a_palette_becomes_colors() {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
         encoder.set_color(png::ColorType::Indexed);
@@ -108,14 +123,14 @@ mod tests {
         writer.write_image_data(&[1, 0]).unwrap();
         writer.finish().unwrap();
         let picture = decode(Path::new("a.png"), &bytes, MOST_BYTES).unwrap();
-        assert_eq!(picture.as_raw(), &[40, 50, 60, 1, 2, 3]);
+        assert_eq!(picture.as_raw(), &[40, 50, 60, 255, 1, 2, 3, 255]);
     }
 
     #[test]
     fn pictures_have_room_in_common() {
         let bytes = written(&DynamicImage::new_rgb8(10, 10), ImageFormat::Png);
-        assert!(decode(Path::new("a.png"), &bytes, 300).is_ok());
-        let error = decode(Path::new("a.png"), &bytes, 299).unwrap_err();
+        assert!(decode(Path::new("a.png"), &bytes, 400).is_ok());
+        let error = decode(Path::new("a.png"), &bytes, 399).unwrap_err();
         assert!(error.to_string().contains("1024 MiB"), "{error}");
     }
 }

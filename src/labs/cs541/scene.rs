@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, dvec3};
-use image::RgbImage;
+use image::RgbaImage;
 
 use crate::scene::{
     Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, Spin, obj, rotate, shapes,
@@ -158,7 +158,7 @@ fn plain(diffuse: DVec3, shininess: f64) -> Material {
     }
 }
 
-fn textured(texture: Arc<RgbImage>, specular: DVec3, shininess: f64) -> Material {
+fn textured(texture: Arc<RgbaImage>, specular: DVec3, shininess: f64) -> Material {
     Material {
         diffuse: DVec3::ONE,
         specular,
@@ -167,12 +167,12 @@ fn textured(texture: Arc<RgbImage>, specular: DVec3, shininess: f64) -> Material
     }
 }
 
-fn floor() -> Result<Arc<RgbImage>> {
+fn floor() -> Result<Arc<RgbaImage>> {
     decode("floor.png", include_bytes!("../../../assets/floor.png"))
 }
 
-fn decode(name: &str, bytes: &[u8]) -> Result<Arc<RgbImage>> {
+fn decode(name: &str, bytes: &[u8]) -> Result<Arc<RgbaImage>> {
     let picture = image::load_from_memory(bytes);
     let picture = picture.map_err(|error| Error::input(name, None, error.to_string()))?;
-    Ok(Arc::new(picture.into_rgb8()))
+    Ok(Arc::new(picture.into_rgba8()))
 }

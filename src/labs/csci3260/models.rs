@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DMat4;
-use image::RgbImage;
+use image::RgbaImage;
 
 use crate::gl;
 use crate::scene::{Object, Scene, obj};
@@ -84,8 +84,8 @@ pub fn load_obj(name: &str, files: &[File], placement: DMat4) -> Result<Vec<Obje
 }
 
 #[doc(alias = "loadTexture")]
-pub fn load_texture((name, bytes): File) -> Result<Arc<RgbImage>> {
+pub fn load_texture((name, bytes): File) -> Result<Arc<RgbaImage>> {
     let picture = image::load_from_memory(bytes);
     let picture = picture.map_err(|error| Error::input(name, None, error.to_string()))?;
-    Ok(Arc::new(picture.into_rgb8()))
+    Ok(Arc::new(picture.into_rgba8()))
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
-use image::RgbImage;
+use image::RgbaImage;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -266,7 +266,7 @@ impl<'a> Value<'a> {
         Ok(scene.with_file_name("").join(name))
     }
 
-    pub fn picture(&self, scene: &Path, files: &Files) -> Result<Arc<RgbImage>> {
+    pub fn picture(&self, scene: &Path, files: &Files) -> Result<Arc<RgbaImage>> {
         let path = self.path(scene)?;
         files
             .picture(&path)

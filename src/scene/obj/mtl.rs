@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
-use image::{ImageFormat, RgbImage};
+use image::{ImageFormat, RgbaImage};
 
 use super::beside;
 use super::lines::{Checked, keyword, lines, numbers, put};
@@ -131,7 +131,7 @@ pub fn check_count(count: usize) -> Checked<()> {
     }
 }
 
-fn material(found: &tobj::Material, texture: Option<Arc<RgbImage>>) -> Material {
+fn material(found: &tobj::Material, texture: Option<Arc<RgbaImage>>) -> Material {
     let shininess = found.shininess.unwrap_or(UNSAID.shininess);
     let mut material = Material {
         diffuse: found.diffuse.map_or(UNSAID.diffuse, DVec3::from),
@@ -156,7 +156,7 @@ fn color(rest: &str) -> Checked<[&str; 3]> {
 }
 
 /// The picture of a `map_Kd`, or a note that there is none.
-fn texture(path: &Path, line: usize, name: &str, files: &Files) -> Result<Option<Arc<RgbImage>>> {
+fn texture(path: &Path, line: usize, name: &str, files: &Files) -> Result<Option<Arc<RgbaImage>>> {
     let wrong = |message| Error::input(path, line, message);
     let drawn_without = |what: &str| {
         let name = quoted(name);
