@@ -90,9 +90,6 @@ pub struct Program {
 
 impl Program {
     /// Compiles and links two shader files and looks up `uniforms`.
-    ///
-    /// A uniform that is not active in the linked program (misspelt, or without effect) is an error, except
-    /// where a student's own file takes part: there it is said, and setting it does nothing.
     pub fn new(
         gl: &glow::Context,
         shaders: &Shaders,
@@ -100,15 +97,27 @@ impl Program {
         fragment: &str,
         uniforms: &[&'static str],
     ) -> Result<Self> {
-        let sources = [
-            (glow::VERTEX_SHADER, shaders.read(vertex)?),
-            (glow::FRAGMENT_SHADER, shaders.read(fragment)?),
-        ];
-        let names = format!(
-            "{} with {}",
-            sources[0].1.path.display(),
-            sources[1].1.path.display()
-        );
+        Self::linked(gl, shaders, vertex, &[fragment], uniforms)
+    }
+
+    /// The same with several fragment shader files, one of which has `main`.
+    ///
+    /// A uniform that is not active in the linked program (misspelt, or without effect) is an error, except
+    /// where a student's own file takes part: there it is said, and setting it does nothing.
+    pub fn linked(
+        gl: &glow::Context,
+        shaders: &Shaders,
+        vertex: &str,
+        fragments: &[&str],
+        uniforms: &[&'static str],
+    ) -> Result<Self> {
+        let mut sources = vec![(glow::VERTEX_SHADER, shaders.read(vertex)?)];
+        for fragment in fragments {
+            sources.push((glow::FRAGMENT_SHADER, shaders.read(fragment)?));
+        }
+        let paths = sources.iter().map(|(_, source)| source.path.display());
+        let names: Vec<_> = paths.map(|path| path.to_string()).collect();
+        let names = names.join(" with ");
         let students = sources.iter().any(|(_, source)| source.students);
         unsafe {
             let handle = gl.create_program().map_err(Error::gl)?;
