@@ -22,6 +22,7 @@ pub enum Key {
     PageUp,
     PageDown,
     Tab,
+    F1,
 }
 
 /// What the mouse does over the picture.
@@ -40,7 +41,7 @@ pub enum Button {
 }
 
 /// The keys that `--keys` writes as `<Name>`; `<lt>` is the character `<` itself.
-const NAMED: [(&str, Key); 8] = [
+const NAMED: [(&str, Key); 9] = [
     ("Left", Key::Left),
     ("Right", Key::Right),
     ("Up", Key::Up),
@@ -48,6 +49,7 @@ const NAMED: [(&str, Key); 8] = [
     ("PageUp", Key::PageUp),
     ("PageDown", Key::PageDown),
     ("Tab", Key::Tab),
+    ("F1", Key::F1),
     ("lt", Key::Char('<')),
 ];
 
@@ -147,9 +149,9 @@ mod tests {
 
     #[test]
     fn what_is_parsed_is_written_the_same() {
-        let text = "wwa<Left><PageUp>W<lt>é<Drag:12,-5><RightDrag:0,7><Wheel:-2>";
+        let text = "wwa<Left><PageUp>W<lt>é<F1><Drag:12,-5><RightDrag:0,7><Wheel:-2>";
         let keys = parse_keys(text).unwrap();
-        assert_eq!(keys.len(), 11);
+        assert_eq!(keys.len(), 12);
         let written: String = keys.iter().map(Input::to_string).collect();
         assert_eq!(written, text);
     }

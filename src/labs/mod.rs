@@ -3,6 +3,7 @@
 //! A lab reads top to bottom in its handout's order, with the GL calls in plain sight. Command line and tests know
 //! no more of a lab than [`Lab`] and [`Handout`]. Labs never import labs.
 
+pub mod aueb7;
 pub mod cmsc23700;
 pub mod cs541;
 pub mod csci3260;
@@ -22,7 +23,7 @@ use crate::scene::Scene;
 use crate::{Error, Result, error};
 
 /// Every lab, in the order in which they are listed.
-pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT];
+pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT, &aueb7::HANDOUT];
 
 /// What is known of a lab before there is a context.
 pub struct Handout {

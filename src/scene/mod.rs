@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod file;
+pub mod graph;
 pub mod mesh;
 pub mod obj;
 pub mod reading;

@@ -50,6 +50,7 @@ pub fn key(pressed: &Pressed) -> Option<Key> {
             NamedKey::PageUp => Some(Key::PageUp),
             NamedKey::PageDown => Some(Key::PageDown),
             NamedKey::Tab => Some(Key::Tab),
+            NamedKey::F1 => Some(Key::F1),
             _ => None,
         },
         _ => None,

@@ -1,0 +1,420 @@
+//! AUEB Computer Graphics, lab 7: shadow mapping of a spotlight, Percentage Closer Filtering, a scene graph.
+//!
+//! | the handout | here |
+//! |---|---|
+//! | `InitializeRenderer`, `Render`, keys | this file |
+//! | `CreateShadowFBO`, `DrawSceneToShadowFBO` | `shadow_map.rs`; `glsl/aueb7/ShadowMap.vert`, `ShadowMap.frag` |
+//! | The spotlight shader, `DrawSportLightSource` | `spot_light.rs`; `glsl/aueb7/SpotLight.vert`, `SpotLight.frag` |
+//! | `root->draw(0)`, `root->draw(1)` | `spot_light.rs`: `draw`; [`crate::scene::graph`] |
+//! | Exercise 2: the shadow map resolution | the setting `map_size` |
+//! | Exercise 3: PCF, the bias, the step | `glsl/aueb7/is_point_in_shadow.frag`; the settings `filter`, `constant_depth_bias`, `step` |
+//! | `SceneGraphExampleInit`, `2`, `3` | `scenes.rs`; the setting `scene` |
+//!
+//! Of the course's texture units, 0 (diffuse) and 4 (the shadow map) are in use. Back faces are culled in both passes, so
+//! that an open mesh of `--scene` neither shows nor casts from behind; of its materials, diffuse color and texture count.
+//!
+//! Chosen, because the handout leaves it open: which way each key and drag moves, how far a left drag goes, the key `l`,
+//! and that the eye never comes to stand straight above its target, or in it. F1 goes round in the handout's order; the
+//! course's program has points before wireframe. What keys and mouse have moved holds in each of the scenes.
+//!
+//! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
+#![allow(unsafe_code)]
+
+mod explain;
+mod programs;
+mod scenes;
+mod settings;
+mod shadow_map;
+mod spot_light;
+
+use std::cell::OnceCell;
+use std::path::Path;
+
+use glam::{DMat4, DVec2, DVec3, dvec2};
+use glow::HasContext;
+
+use super::{
+    Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
+};
+use crate::gl::{self, Program, Shaders};
+use crate::picture::Projection;
+use crate::scene::{Beam, Camera, Light, LightKind, Object, Scene, rotate, shapes};
+use crate::{Error, Result};
+use programs::{Programs, SHADERS, with_shadow_test};
+use scenes::SceneGraph;
+use settings::{DEGREES_PER_SECOND, KEYS, SETTINGS, STEP, TARGET_STEP, TURN_STEP};
+use shadow_map::{MapInputs, ShadowFbo, create_shadow_fbo};
+
+pub static HANDOUT: Handout = Handout {
+    name: "aueb7",
+    title: "AUEB Computer Graphics, lab 7: a spotlight's shadow map, PCF",
+    size: [500, 500],
+    keys: KEYS,
+    settings: SETTINGS,
+    lights: 1,
+    set_bias: settings::set_bias,
+    scene: || Ok(scenes::scene_graph_example_init()?.flattened(DMat4::IDENTITY, 0.0)),
+    start: |gl, scene, students| Ok(Box::new(Aueb7::initialize_renderer(gl, scene, students)?)),
+};
+
+/// F1's rendering modes.
+const MODES: [u32; 3] = [glow::FILL, glow::LINE, glow::POINT];
+
+struct Aueb7 {
+    /// Each is made when it is first asked for.
+    scenes: [OnceCell<SceneGraph>; 3],
+    settings: Settings,
+    size: [u32; 2],
+    /// In seconds.
+    time: f64,
+    moved: Moved,
+    polygon_mode: u32,
+
+    /// What both passes draw: the geometry of each scene graph; empty until it is first drawn.
+    models: [Vec<Model>; 3],
+    white: glow::Texture,
+    /// The sphere at the light.
+    marker: gl::Mesh,
+
+    shaders: Shaders,
+    programs: Programs,
+    /// The most texels that the driver allows along a side.
+    largest_map: u32,
+    shadow_fbo: ShadowFbo,
+    /// What the shadow map was drawn from, while that still holds.
+    drawn: Option<MapInputs>,
+
+    /// Programs that only the measuring commands ask for.
+    visibility: Option<Program>,
+    explainer: Option<Program>,
+}
+
+/// One geometry node on the GPU.
+struct Model {
+    mesh: gl::Mesh,
+    texture: glow::Texture,
+}
+
+/// What keys and mouse have moved.
+#[derive(Clone, Copy, Default)]
+struct Moved {
+    eye: DVec3,
+    target: DVec3,
+    world: DVec3,
+    /// The world's turn about y, then about x, in degrees.
+    turned: DVec2,
+}
+
+impl Aueb7 {
+    #[doc(alias = "InitializeRenderer")]
+    fn initialize_renderer(
+        gl: &glow::Context,
+        scene: Scene,
+        students: Option<&Path>,
+    ) -> Result<Self> {
+        settings::cone(&scene)?;
+        let settings = Settings::new(SETTINGS);
+        let shaders = Shaders::new(HANDOUT.name, SHADERS, students)?;
+        let largest_map = gl::largest_texture(gl);
+        let shadow_fbo = create_shadow_fbo(gl, map_size(largest_map, &settings))?;
+        let programs = Programs::load(gl, &shaders)?;
+        let _pass = gl::pass(gl, "set-up: InitializeRenderer");
+        unsafe {
+            gl.enable(glow::DEPTH_TEST);
+            gl.depth_func(glow::LEQUAL);
+            gl.enable(glow::CULL_FACE);
+            gl.cull_face(glow::BACK);
+        }
+        let mut lab = Self {
+            scenes: [
+                OnceCell::from(SceneGraph::of(scene)),
+                OnceCell::new(),
+                OnceCell::new(),
+            ],
+            settings,
+            size: HANDOUT.size,
+            time: 0.0,
+            moved: Moved::default(),
+            polygon_mode: glow::FILL,
+            models: [vec![], vec![], vec![]],
+            white: gl::solid_texture(gl)?,
+            marker: gl::Mesh::new(gl, "light_source", &shapes::sphere(16))?,
+            shaders,
+            programs,
+            largest_map,
+            shadow_fbo,
+            drawn: None,
+            visibility: None,
+            explainer: None,
+        };
+        lab.load_models(gl)?;
+        Ok(lab)
+    }
+
+    /// Meshes and textures of the present scene, if it has not been drawn yet.
+    fn load_models(&mut self, gl: &glow::Context) -> Result<()> {
+        let place = self.place();
+        if !self.models[place].is_empty() {
+            return Ok(());
+        }
+        let _pass = gl::pass(gl, "set-up: meshes and textures");
+        let mut models = Vec::new();
+        for (object, _) in self.geometry() {
+            let name = &object.name;
+            models.push(Model {
+                mesh: gl::Mesh::new(gl, name, &object.mesh)?,
+                texture: match &object.material.texture {
+                    Some(picture) => {
+                        gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?
+                    }
+                    None => self.white,
+                },
+            });
+        }
+        self.models[place] = models;
+        Ok(())
+    }
+
+    /// The number of the present scene.
+    fn place(&self) -> usize {
+        match self.settings.choice("scene") {
+            "pirate" => 1,
+            "knossos" => 2,
+            _ => 0,
+        }
+    }
+
+    fn graph(&self) -> &SceneGraph {
+        let place = self.place();
+        self.scenes[place].get_or_init(|| {
+            let made = match place {
+                1 => scenes::scene_graph_example_2_init(),
+                _ => scenes::scene_graph_example_3_init(),
+            };
+            made.expect("what the program has of its own is right")
+        })
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.graph().surroundings
+    }
+
+    /// What the graph's root hangs under: the world, translated and turned.
+    fn world(&self) -> DMat4 {
+        let Moved { world, turned, .. } = self.moved;
+        DMat4::from_translation(world) * rotate(turned.y, DVec3::X) * rotate(turned.x, DVec3::Y)
+    }
+
+    /// What is drawn, each with its matrix to world space.
+    fn geometry(&self) -> Vec<(&Object, DMat4)> {
+        self.graph().root.geometry(self.world(), self.spin_time())
+    }
+
+    fn camera(&self) -> Camera {
+        let camera = self.scene().camera;
+        Camera {
+            eye: camera.eye + self.moved.eye,
+            look: camera.look + self.moved.target - self.moved.eye,
+            ..camera
+        }
+    }
+
+    fn spin_time(&self) -> f64 {
+        match self.settings.switch("rotation") {
+            true => self.time,
+            false => 0.0,
+        }
+    }
+
+    /// How far the light has turned, in degrees.
+    fn light_angle(&self) -> f64 {
+        match self.settings.switch("rotate_light") {
+            // Whole turns leave first: the angle stays small however long the program runs.
+            true => (DEGREES_PER_SECOND * self.time) % 360.0,
+            false => 0.0,
+        }
+    }
+
+    fn move_by(&mut self, movement: impl FnOnce(&mut Moved)) {
+        let before = self.moved;
+        movement(&mut self.moved);
+        // In its target, or straight above it, the camera has no right.
+        let Camera { look, rup, .. } = self.camera();
+        let across = look.normalize_or_zero().cross(rup.normalize());
+        if across.length() < LEAST_ACROSS {
+            self.moved = before;
+        }
+    }
+
+    fn next_rendering_mode(&mut self) {
+        let present = MODES.iter().position(|mode| *mode == self.polygon_mode);
+        let next = present.map_or(0, |present| (present + 1) % MODES.len());
+        self.polygon_mode = MODES[next];
+    }
+
+    fn toggle_rotate_light(&mut self) {
+        let other = match self.settings.switch("rotate_light") {
+            true => "rotate_light=off",
+            false => "rotate_light=on",
+        };
+        self.settings.set(other).expect("a switch has both values");
+    }
+}
+
+/// The sine of the smallest angle between the camera's look and its up vector.
+const LEAST_ACROSS: f64 = 1e-3;
+
+/// What the settings ask for, no larger than the driver allows.
+fn map_size(largest_map: u32, settings: &Settings) -> u32 {
+    largest_map.min(settings.number("map_size") as u32)
+}
+
+impl Lab for Aueb7 {
+    fn settings(&mut self) -> &mut Settings {
+        &mut self.settings
+    }
+
+    fn key(&mut self, key: Key) -> bool {
+        match key {
+            Key::F1 => self.next_rendering_mode(),
+            Key::Char('l') => self.toggle_rotate_light(),
+            Key::Char('w') => self.move_by(|moved| moved.eye.z -= STEP),
+            Key::Char('s') => self.move_by(|moved| moved.eye.z += STEP),
+            Key::Char('a') => self.move_by(|moved| moved.eye.x -= STEP),
+            Key::Char('d') => self.move_by(|moved| moved.eye.x += STEP),
+            Key::Char('r') => self.move_by(|moved| moved.eye.y += STEP),
+            Key::Char('f') => self.move_by(|moved| moved.eye.y -= STEP),
+            Key::Up => self.moved.world.z -= STEP,
+            Key::Down => self.moved.world.z += STEP,
+            Key::Left => self.moved.world.x -= STEP,
+            Key::Right => self.moved.world.x += STEP,
+            Key::PageUp => self.moved.world.y += STEP,
+            Key::PageDown => self.moved.world.y -= STEP,
+            _ => return false,
+        }
+        true
+    }
+
+    fn pointer(&mut self, pointer: Pointer) -> bool {
+        let Pointer::Drag { button, dx, dy } = pointer else {
+            return false;
+        };
+        let pixels = dvec2(f64::from(dx), f64::from(dy));
+        match button {
+            Button::Left => self.move_by(|moved| {
+                moved.target += TARGET_STEP * dvec2(pixels.x, -pixels.y).extend(0.0);
+            }),
+            Button::Right => self.moved.turned += TURN_STEP * pixels,
+        }
+        true
+    }
+
+    fn resize(&mut self, size: [u32; 2]) {
+        self.size = size;
+    }
+
+    fn advance(&mut self, dt: f64) {
+        self.time += dt;
+    }
+
+    fn moves(&self) -> bool {
+        let spins = |(object, _): (&Object, DMat4)| {
+            object
+                .spin
+                .is_some_and(|spin| spin.degrees_per_second != 0.0)
+        };
+        self.settings.switch("rotate_light")
+            || self.settings.switch("rotation") && self.geometry().into_iter().any(spins)
+    }
+
+    #[doc(alias = "Render")]
+    fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        self.load_models(gl)?;
+        let size = map_size(self.largest_map, &self.settings);
+        if size != self.shadow_fbo.shadow_dimensions {
+            self.shadow_fbo.delete(gl);
+            self.shadow_fbo = create_shadow_fbo(gl, size)?;
+            self.drawn = None;
+        }
+        if self.visibility.is_none() && show != Show::Picture {
+            let program =
+                with_shadow_test(gl, &self.shaders, "visibility.frag", &["uniform_shadows"])?;
+            self.visibility = Some(program);
+        }
+
+        // F1's mode holds in both passes, and is gone after them.
+        let is_filled = self.polygon_mode == glow::FILL;
+        if !is_filled {
+            unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode) };
+        }
+        if self.settings.switch("shadows") {
+            let inputs = self.map_inputs();
+            let redraw = self.settings.choice("redraw") == "every_frame";
+            if redraw || self.drawn.as_ref() != Some(&inputs) {
+                self.draw_scene_to_shadow_fbo(gl, &inputs);
+                self.drawn = Some(inputs);
+            }
+        }
+        match (show, &self.visibility) {
+            (Show::Visibility { .. }, Some(program)) => self.draw_visibility(gl, program),
+            _ => self.draw_scene(gl),
+        }
+        if !is_filled {
+            unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL) };
+        }
+        Ok(())
+    }
+
+    fn reload(&mut self, gl: &glow::Context) -> Result<()> {
+        let programs = Programs::load(gl, &self.shaders)?;
+        std::mem::replace(&mut self.programs, programs).delete(gl);
+        let made_on_demand = [self.visibility.take(), self.explainer.take()];
+        for program in made_on_demand.into_iter().flatten() {
+            program.delete(gl);
+        }
+        // The map was drawn by the old shaders.
+        self.drawn = None;
+        Ok(())
+    }
+
+    fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
+        if !self.settings.switch("shadows") {
+            return Err(Error::usage(
+                "shadows=off draws no shadow map, expected shadows=on",
+            ));
+        }
+        let Light { near, far, .. } = self.light();
+        Ok(ShadowTexture {
+            texture: self.shadow_fbo.fbo_shadow_texture,
+            scale: MapScale {
+                size: self.shadow_fbo.shadow_dimensions,
+                projection: Projection::Perspective,
+                near,
+                far,
+                bias: self.bias(),
+            },
+        })
+    }
+
+    fn now(&self) -> Scene {
+        let mut scene = self.graph().flattened(self.world(), self.spin_time());
+        scene.camera = self.camera();
+        let light = self.light();
+        let LightKind::Spot { cone, .. } = light.kind else {
+            unreachable!("a scene of another light was refused")
+        };
+        // What the map covers is square, and the light ends where the map does.
+        scene.lights = vec![Light {
+            kind: LightKind::Spot {
+                cone,
+                beam: Beam::Rectangular,
+            },
+            ..light
+        }];
+        scene
+    }
+
+    fn explain(&mut self, gl: &glow::Context, probe: Probe, _light: usize) -> Result<Explanation> {
+        self.explain_at(gl, probe)
+    }
+}
