@@ -46,6 +46,23 @@ const CASES: &[Case] = &[
         settings: &["redraw=every_frame", "scene=room", "stage=culling"],
         passes: &[("rendering the shadow map", 4), ("using the shadow map", 4)],
     },
+    Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "rotate_light=on"],
+        passes: &[
+            ("first pass: DrawSceneToShadowFBO", 3),
+            // The marker at the light, too.
+            ("second pass: Render", 4),
+        ],
+    },
+    Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "scene=knossos"],
+        passes: &[
+            ("first pass: DrawSceneToShadowFBO", 8),
+            ("second pass: Render", 9),
+        ],
+    },
 ];
 
 impl Case {

@@ -38,7 +38,70 @@ const fn csci3260(name: &'static str, options: &'static str) -> Case {
     }
 }
 
+const fn aueb7(name: &'static str, options: &'static str) -> Case {
+    Case {
+        lab: "aueb7",
+        name,
+        options,
+        share_beyond: SHARE_BEYOND,
+    }
+}
+
 const CASES: &[Case] = &[
+    aueb7("default", ""),
+    aueb7("depth-map", "--show shadow-map --set map_size=512"),
+    aueb7("visibility", "--size 320x320 --show visibility"),
+    aueb7("256", "--size 320x320 --set map_size=256"),
+    aueb7("512", "--size 320x320 --set map_size=512"),
+    aueb7("1024", "--size 320x320 --set map_size=1024"),
+    aueb7(
+        "pcf-5",
+        "--size 320x320 --set map_size=512 --set filter=pcf_5",
+    ),
+    aueb7(
+        "pcf-9",
+        "--size 320x320 --set map_size=512 --set filter=pcf_9",
+    ),
+    aueb7(
+        "pcf-9-visibility",
+        "--size 320x320 --set map_size=256 --set filter=pcf_9 --show visibility",
+    ),
+    aueb7(
+        "bias-0",
+        "--size 320x320 --set map_size=512 --set constant_depth_bias=0",
+    ),
+    aueb7(
+        "outside-lit",
+        "--size 320x320 --set map_size=512 --set outside=lit",
+    ),
+    aueb7("shadows-off", "--size 320x320 --set shadows=off"),
+    aueb7("wireframe", "--size 320x320 --set map_size=512 --keys <F1>"),
+    aueb7(
+        "points",
+        "--size 320x320 --set map_size=512 --keys <F1><F1>",
+    ),
+    aueb7(
+        "rotated-light",
+        "--size 320x320 --set map_size=512 --set rotate_light=on --time 4",
+    ),
+    aueb7(
+        "moved-keys",
+        "--size 320x320 --set map_size=512 --keys wwddrrr<Left><Left><Up><PageUp><Drag:40,20><RightDrag:200,-50>",
+    ),
+    aueb7(
+        "pirate",
+        "--set scene=pirate --set map_size=1024 --set filter=pcf_5",
+    ),
+    aueb7("pirate-128", "--size 320x320 --set scene=pirate"),
+    aueb7(
+        "knossos",
+        "--set scene=knossos --set map_size=1024 --set filter=pcf_5",
+    ),
+    aueb7("knossos-128", "--size 320x320 --set scene=knossos"),
+    aueb7(
+        "knossos-evening",
+        "--size 320x320 --set scene=knossos --set map_size=1024 --set rotate_light=on --time 2",
+    ),
     csci3260("default", ""),
     csci3260("depth-map", "--show shadow-map --set map_size=512"),
     csci3260("visibility", "--size 320x240 --show visibility"),

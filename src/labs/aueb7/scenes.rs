@@ -169,13 +169,17 @@ pub fn scene_graph_example_2_init() -> Result<SceneGraph> {
     Ok(graph)
 }
 
-/// A palace in the manner of Knossos. Its size and its turn were chosen: the light comes into its court, and the shadow map
-/// covers all of it.
+/// A palace in the manner of Knossos. Where it stands was chosen: low enough for the light to reach into its court, and
+/// within the shadow map as far as it is seen.
 #[doc(alias = "SceneGraphExample3Init")]
 pub fn scene_graph_example_3_init() -> Result<SceneGraph> {
     let mut graph = SceneGraph::new(dvec3(0.0, 100.0, 170.0), dvec3(60.0, 30.0, 0.0));
     graph.add(
-        TransformNode::new(DVec3::ZERO, rotate(30.0, DVec3::Y), DVec3::splat(1.15)),
+        TransformNode::new(
+            dvec3(0.0, -12.0, 4.0),
+            rotate(18.0, DVec3::Y),
+            DVec3::splat(1.1),
+        ),
         load_obj(PALACE)?,
     );
     Ok(graph)
