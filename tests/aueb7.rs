@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, differing};
+use common::{Bench, differing, work_folder};
 use glam::{DMat4, DVec3, dvec3};
 use image::{GrayImage, RgbImage};
 use shadowlab::ground_truth::Rays;
@@ -494,6 +494,67 @@ fn shadows_are_right_but_for_their_edges() {
     }
 }
 
+/// The white sphere at the light is in the picture alone.
+#[test]
+fn the_marker_at_the_light_is_neither_shadowed_nor_measured() {
+    // From above, it stands before the dark part of the plane.
+    let mut bench = pressed(&[], &"r".repeat(30));
+    let picture = bench.picture();
+    let white = picture
+        .enumerate_pixels()
+        .filter(|(_, _, pixel)| pixel.0 == [255; 3]);
+    let white: Vec<(u32, u32)> = white.map(|(x, y, _)| (x, y)).collect();
+    assert!((3..40).contains(&white.len()), "{}", white.len());
+    let visibility = bench.visibility();
+    for (x, y) in white {
+        assert_eq!(visibility.get_pixel(x, y).0[0], 0, "at {x},{y}");
+    }
+    assert_eq!(bench.lab.now().objects.len(), 3);
+}
+
+/// The test is a file of its own: a student may write that one alone.
+#[test]
+fn a_students_own_shadow_test_takes_the_place_of_the_handouts() {
+    let own = include_str!("../glsl/aueb7/is_point_in_shadow.frag");
+    let with_test = |text: &str, settings: &[&str]| {
+        let folder = work_folder("aueb7_glsl");
+        std::fs::write(folder.join("is_point_in_shadow.frag"), text).unwrap();
+        let mut bench = Bench::with_glsl("aueb7", &folder, SIZE);
+        bench.set(settings);
+        [bench.visibility().into_raw(), bench.picture().into_raw()]
+    };
+    let hard = ["filter=none"];
+    let mut bench = bench(&hard);
+    let handouts = [bench.visibility().into_raw(), bench.picture().into_raw()];
+    assert_eq!(with_test(own, &hard), handouts);
+    let other_way_round = own.replace("shadow_map_z <", "shadow_map_z >");
+    assert_ne!(other_way_round, own);
+    let wrong = with_test(&other_way_round, &hard);
+    assert!(wrong[0] != handouts[0] && wrong[1] != handouts[1]);
+
+    // What is wrong in it is told with its name and line.
+    let folder = work_folder("aueb7_glsl_wrong");
+    let path = folder.join("is_point_in_shadow.frag");
+    std::fs::write(&path, own.replace("return 1.0;", "return 1.0 1.0;")).unwrap();
+    let start = labs::find("aueb7").unwrap().start;
+    let started = start(&bench.context.gl, example(), Some(&folder));
+    let told = started.err().unwrap().to_string();
+    let line = 1 + own
+        .lines()
+        .position(|line| line.contains("return 1.0;"))
+        .unwrap();
+    let place = format!("is_point_in_shadow.frag:{line}: does not compile");
+    assert!(told.contains(&place), "{told}");
+    // A file without one of the functions does not link.
+    std::fs::write(&path, own.replace("pcf_9(", "pcf_8(")).unwrap();
+    let started = start(&bench.context.gl, example(), Some(&folder));
+    let told = started.err().unwrap().to_string();
+    assert!(
+        told.contains("does not link") && told.contains("pcf_9"),
+        "{told}"
+    );
+}
+
 // ---- Keys, mouse and time --------------------------------------------------------------------------------------------
 
 #[test]
@@ -724,51 +785,54 @@ fn the_scenes_stand_where_the_course_has_them() {
     );
 }
 
-#[test]
-fn a_texture_with_alpha_has_holes_in_the_picture_and_none_in_the_shadow() {
-    let sheet = |alpha: u8| {
-        let mut scene = example();
-        scene.objects.truncate(1);
-        let mut picture = image::RgbaImage::from_pixel(64, 64, image::Rgba([200, 200, 200, 255]));
-        for (x, y, pixel) in picture.enumerate_pixels_mut() {
-            if (16..48).contains(&x) && (16..48).contains(&y) {
-                pixel.0[3] = alpha;
-            }
-        }
-        let mut screen = scene.objects[0].clone();
-        screen.name = "screen".to_owned();
-        screen.material.texture = Some(std::sync::Arc::new(picture));
-        screen.placement = DMat4::from_translation(dvec3(0.0, 2.0, 0.0))
-            * shadowlab::scene::rotate(-60.0, DVec3::X)
-            * DMat4::from_scale(DVec3::splat(8.0));
-        scene.objects.push(screen);
-        scene
-    };
-    let settings = ["map_size=1024"];
-    let solid = with_scene(sheet(255), &settings).picture();
-    let mut cut = with_scene(sheet(254), &settings);
-    let holed = cut.picture();
-    // Through the middle of the screen, the floor is seen. Beside it all is as before, its shadow too.
-    let [x, y] = [SIZE[0] / 2, 150];
-    assert_ne!(solid.get_pixel(x, y), holed.get_pixel(x, y));
-    let mut outside_of_the_hole = 0;
-    for (x, y, pixel) in holed.enumerate_pixels() {
-        let (across, down) = (x.abs_diff(160), y.abs_diff(150));
-        if across > 50 || down > 40 {
-            assert_eq!(solid.get_pixel(x, y), pixel, "at {x},{y}");
-            outside_of_the_hole += 1;
+/// A floor, and a screen above it whose texture has a square of this alpha in its middle, from a scene file.
+fn screen(alpha: u8) -> Scene {
+    let folder = work_folder(&format!("aueb7_alpha_{alpha}"));
+    let mut picture = image::RgbaImage::from_pixel(64, 64, image::Rgba([200, 200, 200, 255]));
+    for (x, y, pixel) in picture.enumerate_pixels_mut() {
+        if (16..48).contains(&x) && (16..48).contains(&y) {
+            pixel.0[3] = alpha;
         }
     }
-    assert!(outside_of_the_hole > 70_000);
+    picture.save(folder.join("screen.png")).unwrap();
+    let scene = "\
+        clear = [0.03, 0.2, 0.22]\nambient = [0.02, 0.1, 0.15]\n\
+        [camera]\neye = [0, 30, 80]\ntarget = [0, 0, 0]\nfovy = 30\n\
+        [light]\nposition = [5, 20, 0]\ncone = 90\nfar = 100\n\
+        [[object]]\nmesh = \"plane\"\nscale = 100\n\
+        rotate = { axis = [1, 0, 0], degrees = -90 }\ntranslate = [0, -10, 0]\n\
+        [[object]]\nmesh = \"plane\"\nscale = 8\ntexture = \"screen.png\"\n\
+        rotate = { axis = [1, 0, 0], degrees = -60 }\ntranslate = [0, 2, 0]\n";
+    std::fs::write(folder.join("s.toml"), scene).unwrap();
+    shadowlab::scene::file::load(&folder.join("s.toml"), false).unwrap()
+}
+
+#[test]
+fn a_texture_with_alpha_has_holes_in_the_picture_and_none_in_the_shadow() {
+    let settings = ["map_size=1024"];
+    let drawn = |alpha: u8| {
+        let mut bench = with_scene(screen(alpha), &settings);
+        (bench.picture(), bench.visibility())
+    };
+    let (solid, covered) = drawn(255);
+    let (holed, open) = drawn(0);
+    // Through the middle of the screen the floor is seen. Beside it all is as before, its shadow too.
+    let mut beside_the_hole = 0;
+    for (x, y, pixel) in holed.enumerate_pixels() {
+        if x.abs_diff(160) > 50 || y.abs_diff(150) > 40 {
+            assert_eq!(solid.get_pixel(x, y), pixel, "at {x},{y}");
+            beside_the_hole += 1;
+        }
+    }
+    assert!(beside_the_hole > 70_000);
     assert!(differing(&solid, &holed) > 500);
-    // What shows through is what the visibility tells of.
-    let visibility = cut.visibility();
-    let covered = with_scene(sheet(255), &settings).visibility();
-    assert!(differing(&visibility, &covered) > 100);
-    assert!(
-        dark(&visibility) > 1000,
-        "the screen's shadow, without a hole"
-    );
+    // The visibility is that of what shows through; the screen's shadow has no hole.
+    assert!(differing(&covered, &open) > 100);
+    assert!(dark(&open) >= dark(&covered));
+    // However little is missing, the lighting discards; at the hole's edge the filter mixes the two alphas.
+    let (nearly_opaque, _) = drawn(254);
+    assert!(differing(&solid, &nearly_opaque) > 2000);
+    assert!(differing(&holed, &nearly_opaque) < 300);
 }
 
 #[test]

@@ -44,11 +44,14 @@ impl TransformNode {
     /// seconds; `above` is the matrix of what the node itself hangs under.
     pub fn geometry(&self, above: DMat4, time: f64) -> Vec<(&Object, DMat4)> {
         let here = above * self.matrix;
-        let of_child = |child| match child {
-            &Node::Transform(ref node) => node.geometry(here, time),
-            &Node::Geometry(ref object) => vec![(object, here * object.model(time))],
-        };
-        self.children.iter().flat_map(of_child).collect()
+        let mut found = Vec::new();
+        for child in &self.children {
+            match child {
+                Node::Transform(node) => found.extend(node.geometry(here, time)),
+                Node::Geometry(object) => found.push((object, here * object.model(time))),
+            }
+        }
+        found
     }
 }
 

@@ -14,7 +14,7 @@ pub const TARGET_STEP: f64 = 0.1;
 /// The light's turn: the course's 0.4 degrees in each frame of 16 ms.
 pub const DEGREES_PER_SECOND: f64 = 25.0;
 
-// DEVIATES: "A/S: camera eye X translation", S already moves along z; the course's program has A and D.
+// DEVIATES: A/S, the handout has it for "camera eye X translation": S already moves along z; the course's program has A and D.
 pub const KEYS: &[(&str, &str)] = &[
     ("<F1>", "rendering mode: fill, wireframe, point"),
     ("w s", "camera eye Z translation: away, nearer"),

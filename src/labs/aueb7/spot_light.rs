@@ -32,7 +32,7 @@ impl Aueb7 {
     }
 
     /// To world space, with its origin moved to the eye.
-    pub(super) fn from_eye(&self, model: DMat4) -> DMat4 {
+    pub(super) fn model_from_eye(&self, model: DMat4) -> DMat4 {
         DMat4::from_translation(-self.camera().eye) * model
     }
 
@@ -75,7 +75,7 @@ impl Aueb7 {
         self.draw(gl, |index, object, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
-            let to_eye = DMat3::from_mat4(view * self.from_eye(model));
+            let to_eye = DMat3::from_mat4(view * self.model_from_eye(model));
             let normal_matrix = to_eye.inverse().transpose();
             program.set(gl, "uniform_normal_matrix_ecs", normal_matrix);
             program.set(gl, "uniform_diffuse_color", object.material.diffuse);
@@ -112,7 +112,7 @@ impl Aueb7 {
     fn draw_spot_light_source(&self, gl: &glow::Context) {
         let program = &self.programs.light_source;
         let place = DMat4::from_translation(self.light().position);
-        let model = self.from_eye(place) * DMat4::from_scale(DVec3::splat(MARKER_RADIUS));
+        let model = self.model_from_eye(place) * DMat4::from_scale(DVec3::splat(MARKER_RADIUS));
         unsafe { gl.use_program(Some(program.handle)) };
         program.set(gl, "uniform_mvp", self.projection() * self.view() * model);
         self.marker.draw(gl);
@@ -163,7 +163,7 @@ impl Aueb7 {
     }
 
     pub(super) fn set_model(&self, gl: &glow::Context, program: &Program, model: DMat4) {
-        program.set(gl, "uniform_m", self.from_eye(model));
+        program.set(gl, "uniform_m", self.model_from_eye(model));
     }
 
     /// The texture of an object, unless the object before it has the same.

@@ -124,13 +124,14 @@ impl Aueb7 {
         let (object, model) = self.geometry()[fragment.object];
         let indices = object.mesh.faces[fragment.triangle];
         let corners = indices.map(|i| object.mesh.positions[i as usize]);
-        (corners, self.view() * self.from_eye(model))
+        (corners, self.view() * self.model_from_eye(model))
     }
 
     /// Of `position_ecs`: rounding relative to the largest terms of `uniform_v * (uniform_m * position)`.
     fn ecs_rounding(&self, probe: Probe, fragment: &Fragment, ecs: DVec3) -> DVec3 {
         let terms = |model: DMat4, point: DVec3| {
-            let terms = self.view().abs() * (self.from_eye(model).abs() * point.abs().extend(1.0));
+            let terms =
+                self.view().abs() * (self.model_from_eye(model).abs() * point.abs().extend(1.0));
             ROUNDING * terms.truncate()
         };
         match probe {
