@@ -26,6 +26,7 @@ mod scenes;
 mod settings;
 mod shadow_map;
 mod spot_light;
+mod stages;
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -51,6 +52,7 @@ pub static HANDOUT: Handout = Handout {
     size: [500, 500],
     keys: KEYS,
     settings: SETTINGS,
+    stages: stages::STAGES,
     lights: 1,
     set_bias: settings::set_bias,
     scene: || Ok(scenes::scene_graph_example_init()?.flattened(DMat4::IDENTITY, 0.0)),
