@@ -17,12 +17,12 @@ pub use explanation::{Explanation, Probe, Step};
 pub use keys::{Button, Input, Key, Pointer, parse_keys};
 pub use settings::{Kind, Setting, Settings};
 
-use crate::picture::Projection;
+use crate::picture::{Grey, Projection};
 use crate::scene::Scene;
 use crate::{Error, Result, error};
 
 /// Every lab, in the order in which they are listed.
-pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT];
+pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT, &cmsc23700::HANDOUT];
 
 /// What is known of a lab before there is a context.
 pub struct Handout {
@@ -32,6 +32,8 @@ pub struct Handout {
     /// The size of the course's window, in pixels.
     pub size: [u32; 2],
     pub keys: &'static [(&'static str, &'static str)],
+    /// The key of the handout that ends the viewer, as escape does. Without a window it changes nothing.
+    pub quit: Option<Key>,
     pub settings: &'static [Setting],
     /// How many lights have a shadow of their own.
     pub lights: usize,
@@ -76,6 +78,16 @@ pub trait Lab {
 
     /// Compiles the shaders again, from their files. After an error the lab draws on with those it had.
     fn reload(&mut self, gl: &glow::Context) -> Result<()>;
+
+    /// A light (from 1) that is off has no shadow to ask for.
+    fn check_light(&self, _light: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// What the grey of a depth map stands for: the distance, unless the handout wants to see the depths as they are.
+    fn grey(&self) -> Grey {
+        Grey::Distance
+    }
 
     /// The depth map of a light (from 1), as the last frame drew it.
     fn shadow_texture(&self, light: usize) -> Result<ShadowTexture>;

@@ -133,7 +133,7 @@ impl Panels {
             self.overlay.draw_inset(
                 gl,
                 map.texture,
-                map.scale.projection,
+                lab.grey().of(map.scale.projection),
                 [map.scale.near, map.scale.far],
                 area,
             );

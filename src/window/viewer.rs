@@ -185,6 +185,9 @@ impl Viewer {
             self.title.written = None;
             self.canvas.window.request_redraw();
         } else if let Some(key) = keys::key(&event.logical_key) {
+            if self.handout.quit == Some(key) {
+                return Next::End;
+            }
             self.drag();
             self.input(Input::Key(key));
         }

@@ -45,6 +45,7 @@ pub static HANDOUT: Handout = Handout {
     title: "CS 541, assignment 5: the two-pass shadow map, spot or point light",
     size: [500, 500],
     keys: KEYS,
+    quit: None,
     settings: SETTINGS,
     lights: 1,
     set_bias: settings::set_bias,

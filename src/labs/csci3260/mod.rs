@@ -41,6 +41,7 @@ pub static HANDOUT: Handout = Handout {
     title: "CSCI 3260, tutorial 8: shadow mapping of a directional light",
     size: [800, 600],
     keys: KEYS,
+    quit: None,
     settings: SETTINGS,
     lights: 1,
     set_bias: settings::set_bias,
