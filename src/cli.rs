@@ -295,6 +295,13 @@ impl State {
                 )));
             }
         }
+        let most = lab.most_time();
+        if self.time > most {
+            return Err(Error::usage(format!(
+                "--time {}: {} expected a number of seconds, 0 to {most}",
+                self.time, handout.name
+            )));
+        }
         lab.advance(self.time);
         Ok(())
     }

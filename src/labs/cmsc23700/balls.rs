@@ -11,8 +11,8 @@ use glow::HasContext;
 use super::scene;
 use super::simulation::{MAX_BALLS, Simulation};
 use crate::gl::trace::{ObjectKind, name_object};
-use crate::{Error, Result, gl};
 use crate::scene::Mesh;
+use crate::{Error, Result, gl};
 
 /// Where the vertex shaders find what belongs to an instance.
 const CENTER: u32 = 3;

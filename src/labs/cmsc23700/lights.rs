@@ -44,11 +44,7 @@ impl LightCamera {
             position: light.position,
             model_view,
             projection,
-            texture_matrix: to_texture()
-                * projection
-                * model_view
-                * to_light
-                * from_eye_space,
+            texture_matrix: to_texture() * projection * model_view * to_light * from_eye_space,
         }
     }
 

@@ -127,8 +127,8 @@ impl Programs {
     /// Both or none: a lab never draws with half of its shaders.
     fn new(gl: &glow::Context, shaders: &Shaders) -> Result<Self> {
         let shadow = shadow_map::shadow_program(gl, shaders)?;
-        let lighting = second_pass::lighting_program(gl, shaders)
-            .inspect_err(|_| shadow.delete(gl))?;
+        let lighting =
+            second_pass::lighting_program(gl, shaders).inspect_err(|_| shadow.delete(gl))?;
         Ok(Self { shadow, lighting })
     }
 }
@@ -158,8 +158,8 @@ impl Cmsc23700 {
         };
         let balls = Balls::new(gl)?;
         unsafe { gl.enable(glow::DEPTH_TEST) };
-        let light_cameras = [DIRECTIONAL, SPOT]
-            .map(|light| LightCamera::new(&scene.lights[light], &scene.camera));
+        let light_cameras =
+            [DIRECTIONAL, SPOT].map(|light| LightCamera::new(&scene.lights[light], &scene.camera));
         let mut lab = Self {
             scene,
             settings,
@@ -279,6 +279,11 @@ impl Lab for Cmsc23700 {
 
     fn resize(&mut self, size: [u32; 2]) {
         self.size = size;
+    }
+
+    /// A day: every bounce until then is computed, which takes 100 balls some 20 seconds.
+    fn most_time(&self) -> f64 {
+        86_400.0
     }
 
     fn advance(&mut self, dt: f64) {

@@ -5,9 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, dvec3};
 
 use super::simulation::{COLORS, RADIUS, Simulation};
-use crate::scene::{
-    Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, shapes,
-};
+use crate::scene::{Beam, Camera, Fov, Light, LightKind, Material, Mesh, Object, Scene, shapes};
 use crate::{Error, Result};
 
 /// "The whole scene can be bounded by a sphere at the origin that has radius √3."
@@ -45,14 +43,14 @@ pub fn the_box() -> Result<Scene> {
 /// Mostly from above, so that the walls, which cast, leave most of the bottom in the light; a little from the viewer's
 /// left, and from the front.
 fn directional() -> Light {
-    let to_light = dvec3(0.25, 1.0, -0.4).normalize();
+    let to_light = dvec3(0.3, 1.0, -0.6).normalize();
     Light {
         kind: LightKind::Directional {
             area: [-BOUND, BOUND, -BOUND, BOUND],
         },
         position: BOUND * to_light,
         direction: -to_light,
-        color: DVec3::splat(0.55),
+        color: DVec3::splat(0.5),
         near: 0.0,
         far: 2.0 * BOUND,
     }
@@ -70,7 +68,7 @@ fn spotlight() -> Light {
         },
         position,
         direction: target - position,
-        color: DVec3::splat(1.0),
+        color: DVec3::splat(0.8),
         near: distance - BOUND,
         far: distance + BOUND,
     }

@@ -48,7 +48,7 @@ pub const SETTINGS: &[Setting] = &[
     Setting {
         name: "directional_bias",
         kind: Kind::Number {
-            default: 0.003,
+            default: 0.0035,
             least: 0.0,
             most: 0.1,
             whole: false,
@@ -58,7 +58,7 @@ pub const SETTINGS: &[Setting] = &[
     Setting {
         name: "spot_bias",
         kind: Kind::Number {
-            default: 0.001,
+            default: 0.0015,
             least: 0.0,
             most: 0.1,
             whole: false,

@@ -145,7 +145,10 @@ impl Cmsc23700 {
             }
         }
         for (light, inputs) in due {
-            let _pass = gl::pass(gl, &format!("first pass: the {}'s shadow map", NAMES[light]));
+            let _pass = gl::pass(
+                gl,
+                &format!("first pass: the {}'s shadow map", NAMES[light]),
+            );
             unsafe {
                 gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.shadow_maps[light].fbo));
                 gl.clear(glow::DEPTH_BUFFER_BIT);

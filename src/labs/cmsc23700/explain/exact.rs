@@ -62,7 +62,10 @@ impl Cmsc23700 {
         let nearer = {
             let (depth, bias) = (&place[2], self.bias(light));
             let nearer = |depth: f64| depth.min(1.0) - bias;
-            let range = Range::over(nearer(depth.value), [nearer(depth.least), nearer(depth.most)]);
+            let range = Range::over(
+                nearer(depth.value),
+                [nearer(depth.least), nearer(depth.most)],
+            );
             widened(range, ROUNDING * bias)
         };
         let stored = self.exact_stored(&place, light);
@@ -147,7 +150,9 @@ impl Cmsc23700 {
     /// the whole triangle, and their rounding is that of the largest one.
     fn stretch(&self, fragment: &Fragment, eye_position: DVec3) -> f64 {
         let model_view = self.model_view(self.placed(fragment.object));
-        let depths = self.triangle(fragment).map(|p| -model_view.transform_point3(p).z);
+        let depths = self
+            .triangle(fragment)
+            .map(|p| -model_view.transform_point3(p).z);
         let nearest = depths.into_iter().fold(f64::INFINITY, f64::min);
         (-eye_position.z / nearest.max(self.scene.camera.near)).max(1.0)
     }
@@ -159,7 +164,11 @@ impl Cmsc23700 {
         let mut at = |uv: DVec2| {
             let on_map = uv.min_element() >= 0.0 && uv.max_element() <= 1.0;
             // GL_CLAMP_TO_BORDER.
-            if on_map { map.lookup(uv) } else { Range::over(1.0, []) }
+            if on_map {
+                map.lookup(uv)
+            } else {
+                Range::over(1.0, [])
+            }
         };
         let [s, t, _] = place;
         let uv = dvec2(s.value, t.value);

@@ -63,8 +63,24 @@ impl Cmsc23700 {
         for (value, number) in values.iter_mut().zip(0..) {
             *value = read(number)?;
         }
-        let [number, triangle, x, y, z, s, t, r, q, u, v, depth, spot_dot, nearer, stored, shadow] =
-            values;
+        let [
+            number,
+            triangle,
+            x,
+            y,
+            z,
+            s,
+            t,
+            r,
+            q,
+            u,
+            v,
+            depth,
+            spot_dot,
+            nearer,
+            stored,
+            shadow,
+        ] = values;
         let object = number as usize - 1;
         Ok(Some(Fragment {
             eye_position: DVec3::new(x, y, z),

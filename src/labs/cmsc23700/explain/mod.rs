@@ -31,7 +31,10 @@ impl Cmsc23700 {
                 format!("{name}: pixel {x},{y}"),
                 Some(gl::read_rgb(gl, self.size).get_pixel(x, y).0),
             ),
-            Probe::Point(p) => (format!("{name}: the point ({}, {}, {})", p.x, p.y, p.z), None),
+            Probe::Point(p) => (
+                format!("{name}: the point ({}, {}, {})", p.x, p.y, p.z),
+                None,
+            ),
         };
         let Some(fragment) = self.fragment(gl, probe, light)? else {
             return Ok(Explanation::of_nothing(place + " shows no surface", color));
@@ -130,7 +133,12 @@ impl Cmsc23700 {
         light != SPOT || spot_dot >= cos_cutoff(&self.scene.lights[SPOT])
     }
 
-    fn tests(&self, gpu: &Fragment, exact: &Exact, light: usize) -> Vec<(&'static str, bool, bool)> {
+    fn tests(
+        &self,
+        gpu: &Fragment,
+        exact: &Exact,
+        light: usize,
+    ) -> Vec<(&'static str, bool, bool)> {
         let [asked, exactly_asked] =
             [gpu.spot_dot, exact.spot_dot.value].map(|dot| self.is_asked(dot, light));
         let mut tests = Vec::new();
