@@ -31,6 +31,7 @@ pub struct Balls {
 impl Balls {
     /// One ball, and room for the places and colors of as many as there can be.
     pub fn new(gl: &glow::Context) -> Result<Self> {
+        let _pass = gl::pass(gl, "set-up: the balls");
         let mesh = Arc::new(scene::ball());
         let buffers = gl::Mesh::new(gl, "ball", &mesh)?;
         let position_buffer = instance_buffer(gl, "ball_positions", CENTER)?;

@@ -49,19 +49,22 @@ impl Cmsc23700 {
         unsafe { gl.use_program(Some(program.handle)) };
         self.use_shadow_maps(gl, program);
         program.set(gl, "light", light as i32);
-        let read = |value| {
+        let read = |only: Option<usize>, value| {
             program.set(gl, "valueNumber", value);
             match probe {
-                Probe::Pixel(pixel) => Ok(self.pixel_value(gl, program, pixel)),
+                Probe::Pixel(pixel) => Ok(self.pixel_value(gl, program, pixel, only)),
                 Probe::Point(point) => self.point_value(gl, program, point),
             }
         };
-        if read(0)? == 0.0 {
+        // The whole scene decides what is seen; after that its own object, or the balls, are enough.
+        let number = read(None, 0)?;
+        if number == 0.0 {
             return Ok(None);
         }
+        let only = (number as usize - 1).min(self.scene.objects.len());
         let mut values = [0.0; 16];
         for (value, number) in values.iter_mut().zip(0..) {
-            *value = read(number)?;
+            *value = read(Some(only), number)?;
         }
         let [
             number,
@@ -99,8 +102,14 @@ impl Cmsc23700 {
         }))
     }
 
-    /// One value of the fragment that is seen at a pixel.
-    fn pixel_value(&self, gl: &glow::Context, program: &Program, [x, y]: [u32; 2]) -> f64 {
+    /// One value of the fragment that is seen at a pixel, when one object or the balls are drawn, or all.
+    fn pixel_value(
+        &self,
+        gl: &glow::Context,
+        program: &Program,
+        [x, y]: [u32; 2],
+        only: Option<usize>,
+    ) -> f64 {
         let row = self.size[1] - 1 - y;
         // Into the window, where the driver rounds as it does in the picture that is explained.
         unsafe {
@@ -113,7 +122,7 @@ impl Cmsc23700 {
             gl,
             |number| {
                 program.set(gl, "objectNumber", number as i32 + 1);
-                true
+                only.is_none_or(|only| only == number)
             },
             |model| program.set(gl, "modelView", self.model_view(model)),
         );
