@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use shadowlab::gl::{self, trace};
 use shadowlab::headless::{self, Choice, Headless};
-use shadowlab::labs::{self, Handout, Lab, Probe, Show, parse_keys};
+use shadowlab::labs::{self, Handout, Input, Lab, Probe, Show, parse_keys};
 use shadowlab::scene::{self, Scene};
 use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, picture};
@@ -70,7 +70,7 @@ pub struct State {
     /// Give a setting another value; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse
+    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse, <Wait:0.5> lets seconds pass
     #[arg(
         long,
         value_name = "KEYS",
@@ -281,7 +281,19 @@ impl State {
         for assignment in &self.set {
             lab.settings().set(assignment)?;
         }
-        for input in parse_keys(&self.keys)? {
+        let inputs = parse_keys(&self.keys)?;
+        let waits = inputs.iter().map(|input| match input {
+            Input::Wait(seconds) => *seconds,
+            _ => 0.0,
+        });
+        let (time, most) = (waits.sum::<f64>() + self.time, lab.most_time());
+        if time > most {
+            return Err(Error::usage(format!(
+                "--time {time}: {} expected a number of seconds, 0 to {most}",
+                handout.name
+            )));
+        }
+        for input in inputs {
             if !lab.input(input) {
                 return Err(Error::usage(format!(
                     "--keys: {} has no key {input}, expected one of {}",
@@ -294,13 +306,6 @@ impl State {
                         .join(" ")
                 )));
             }
-        }
-        let most = lab.most_time();
-        if self.time > most {
-            return Err(Error::usage(format!(
-                "--time {}: {} expected a number of seconds, 0 to {most}",
-                self.time, handout.name
-            )));
         }
         lab.advance(self.time);
         Ok(())

@@ -77,7 +77,7 @@ fn light_on(light: &Light, surface: &Surface) -> Option<DVec3> {
     } else if cosine < cutoff {
         Some(DVec3::ZERO)
     } else {
-        let attenuation = cosine.powi(2) / (1.0 + 0.1 * d + 0.05 * d * d);
+        let attenuation = cosine.powi(2) / (1.0 + 0.05 * d + 0.02 * d * d);
         Some(attenuation * ambient_and_diffuse(-from_light / d))
     }
 }

@@ -38,7 +38,43 @@ const fn csci3260(name: &'static str, options: &'static str) -> Case {
     }
 }
 
+const fn cmsc23700(name: &'static str, options: &'static str) -> Case {
+    Case {
+        lab: "cmsc23700",
+        name,
+        options,
+        share_beyond: SHARE_BEYOND,
+    }
+}
+
 const CASES: &[Case] = &[
+    cmsc23700("default", ""),
+    cmsc23700("directional", "--size 320x320 --set lights=directional"),
+    cmsc23700("spotlight", "--size 320x320 --set lights=spotlight"),
+    cmsc23700("shadows-off", "--size 320x320 --set shadows=off"),
+    cmsc23700(
+        "no-bias",
+        "--size 320x320 --set directional_bias=0 --set spot_bias=0",
+    ),
+    cmsc23700("map-256", "--size 320x320 --set map_size=256"),
+    cmsc23700("hundred-balls", "--size 320x320 --set balls=100 --time 3"),
+    cmsc23700("moved-keys", "--size 320x320 --time 1.5 --keys +++l-"),
+    cmsc23700(
+        "depth-map-directional",
+        "--show shadow-map --light 1 --set map_size=320",
+    ),
+    cmsc23700(
+        "depth-map-spotlight",
+        "--show shadow-map --light 2 --set map_size=320",
+    ),
+    cmsc23700(
+        "visibility-directional",
+        "--size 320x320 --show visibility --light 1",
+    ),
+    cmsc23700(
+        "visibility-spotlight",
+        "--size 320x320 --show visibility --light 2",
+    ),
     csci3260("default", ""),
     csci3260("depth-map", "--show shadow-map --set map_size=512"),
     csci3260("visibility", "--size 320x240 --show visibility"),

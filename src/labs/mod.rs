@@ -61,7 +61,16 @@ pub trait Lab {
         match input {
             Input::Key(key) => self.key(key),
             Input::Pointer(pointer) => self.pointer(pointer),
+            Input::Wait(seconds) => {
+                self.advance(seconds);
+                true
+            }
         }
+    }
+
+    /// Whether it makes a difference at what time a key is pressed.
+    fn keys_ask_time(&self) -> bool {
+        false
     }
 
     /// The default framebuffer has a new size, in pixels.

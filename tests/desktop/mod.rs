@@ -114,9 +114,13 @@ pub struct Viewer<'a> {
 impl<'a> Viewer<'a> {
     /// Returns once the window has its first frame and the keyboard.
     pub fn open(desktop: &'a Desktop, options: &str) -> Self {
+        Self::open_lab(desktop, "cs541", options)
+    }
+
+    pub fn open_lab(desktop: &'a Desktop, lab: &str, options: &str) -> Self {
         let mut process = desktop
             .command(env!("CARGO_BIN_EXE_shadowlab"))
-            .args(["view", "cs541"])
+            .args(["view", lab])
             .args(options.split_whitespace())
             .stdout(Stdio::piped())
             .spawn()
@@ -135,13 +139,14 @@ impl<'a> Viewer<'a> {
             id: String::new(),
         };
         let first = viewer.line();
-        assert!(first.contains("cs541 in a window"), "{first}");
+        assert!(first.contains(&format!("{lab} in a window")), "{first}");
         let began = Instant::now();
         // The first frame writes the title.
         while viewer.id.is_empty() {
             assert!(began.elapsed() < PATIENCE, "no window");
             sleep(Duration::from_millis(20));
-            viewer.id = desktop.xdotool(&["search", "--onlyvisible", "--name", "^cs541, "]);
+            let title = format!("^{lab}, ");
+            viewer.id = desktop.xdotool(&["search", "--onlyvisible", "--name", &title]);
         }
         // Without a window manager nobody else gives the window the keyboard.
         desktop.xdotool(&["windowfocus", "--sync", &viewer.id]);

@@ -10,7 +10,7 @@ use crate::scene::{Camera, Light, LightKind, Scene, camera};
 pub const AMBIENT: f64 = 0.25;
 /// How the spotlight weakens: towards the edge of its cone, and with the distance (constant, linear, quadratic).
 pub const SPOT_EXPONENT: f64 = 2.0;
-pub const SPOT_ATTENUATION: DVec3 = DVec3::new(1.0, 0.1, 0.05);
+pub const SPOT_ATTENUATION: DVec3 = DVec3::new(1.0, 0.05, 0.02);
 
 /// A light as the camera of its shadow map.
 pub struct LightCamera {

@@ -277,6 +277,11 @@ impl Lab for Cmsc23700 {
         false
     }
 
+    /// A ball flies from the moment when it is added.
+    fn keys_ask_time(&self) -> bool {
+        true
+    }
+
     fn resize(&mut self, size: [u32; 2]) {
         self.size = size;
     }

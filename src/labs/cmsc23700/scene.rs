@@ -50,7 +50,7 @@ fn directional() -> Light {
         },
         position: BOUND * to_light,
         direction: -to_light,
-        color: DVec3::splat(0.5),
+        color: DVec3::splat(0.55),
         near: 0.0,
         far: 2.0 * BOUND,
     }
@@ -68,7 +68,7 @@ fn spotlight() -> Light {
         },
         position,
         direction: target - position,
-        color: DVec3::splat(0.8),
+        color: DVec3::splat(0.6),
         near: distance - BOUND,
         far: distance + BOUND,
     }
