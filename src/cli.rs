@@ -286,7 +286,8 @@ impl State {
             Input::Wait(seconds) => *seconds,
             _ => 0.0,
         });
-        let (time, most) = (waits.sum::<f64>() + self.time, lab.most_time());
+        let time = waits.sum::<f64>() + self.time;
+        let most = lab.most_time().min(MOST_TIME);
         if time > most {
             return Err(Error::usage(format!(
                 "--time {time}: {} expected a number of seconds, 0 to {most}",

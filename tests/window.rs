@@ -275,7 +275,10 @@ fn balls_are_added_at_their_time_and_the_handouts_key_quits() {
 
     // Time stands still; so the corner changes with the inset alone.
     viewer.press("space");
-    std::thread::sleep(Duration::from_millis(100));
+    let paused = || viewer.title().contains("paused");
+    let tries = (0..500).take_while(|_| !paused());
+    tries.for_each(|_| std::thread::sleep(Duration::from_millis(20)));
+    assert!(paused());
     let cut = |screen: &RgbImage| image::imageops::crop_imm(screen, 210, 160, 80, 60).to_image();
     let corner = |differs_from: Option<&RgbImage>| {
         let is_new = |screen: &RgbImage| differs_from.is_none_or(|other| cut(screen) != *other);
