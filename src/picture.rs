@@ -29,6 +29,26 @@ pub enum Projection {
     Orthographic,
 }
 
+/// What the grey of a depth map stands for, from black to white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grey {
+    /// The distance from the light's plane, from near to far.
+    Distance,
+    /// The depth as it is stored, which is −1…1 in clipping space.
+    Depth,
+}
+
+impl Grey {
+    /// What a map's projection is to be taken for, so that its depths become this grey.
+    pub fn of(self, projection: Projection) -> Projection {
+        match self {
+            Self::Distance => projection,
+            // Depths that are even already are left as they are.
+            Self::Depth => Projection::Orthographic,
+        }
+    }
+}
+
 /// Depths as the driver stores them, 0 at the near plane and 1 at the far plane.
 #[derive(Clone, Debug)]
 pub struct DepthMap {

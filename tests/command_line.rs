@@ -242,8 +242,68 @@ const WRONG: &[(&str, i32, &[&str])] = &[
         1,
         &["missing/a.png", "cannot write it"],
     ),
+    (
+        "screenshot cmsc23700 --keys +p",
+        2,
+        &["no key p", "expected one of l + -"],
+    ),
+    (
+        "screenshot cmsc23700 --light 3",
+        2,
+        &["--light 3", "expected 1 to 2"],
+    ),
+    (
+        "screenshot cmsc23700 --set balls=101",
+        2,
+        &["101", "a whole number from 0 to 100"],
+    ),
+    (
+        "screenshot cmsc23700 --time 86401",
+        2,
+        &["86401", "0 to 86400"],
+    ),
+    (
+        "screenshot cmsc23700 --keys <Wait:80000>+ --time 6401",
+        2,
+        &["86401", "0 to 86400"],
+    ),
+    (
+        "screenshot cmsc23700 --show visibility --set lights=spotlight",
+        2,
+        OFF,
+    ),
+    (
+        "screenshot cmsc23700 --show shadow-map --set lights=spotlight",
+        2,
+        OFF,
+    ),
+    ("screenshot cmsc23700 --show depth-raw --keys ll", 2, OFF),
+    ("measure cmsc23700 --set lights=spotlight", 2, OFF),
+    (
+        "measure cmsc23700 --reference small.png --size 4x3 --set lights=spotlight",
+        2,
+        OFF,
+    ),
+    ("truth cmsc23700 --set lights=spotlight", 2, OFF),
+    (
+        "explain cmsc23700 --pixel 1,1 --set lights=spotlight",
+        2,
+        OFF,
+    ),
+    (
+        "measure cmsc23700 --light 2 --set lights=directional",
+        2,
+        &["lights=directional", "map of light 2", "lights=both"],
+    ),
     ("trace cs541 -o trace.txt", 2, &["-o"]),
     ("labs cs541", 2, &["cs541"]),
+];
+
+/// What is said of the directional light where it is off.
+const OFF: &[&str] = &[
+    "lights=spotlight",
+    "map of light 1",
+    "expected lights=directional",
 ];
 
 /// Files and folders that the wrong calls speak of.
@@ -457,6 +517,24 @@ fn truth_and_measure_agree_with_each_other() {
         red,
         wrong["pixels"].as_u64().unwrap() + wrong["ambiguous"].as_u64().unwrap()
     );
+}
+
+/// Characters that a shell's options begin with are keys, too; and the key that quits changes nothing here.
+#[test]
+fn plus_and_minus_are_keys() {
+    let folder = work_folder("plus_and_minus");
+    let picture = |keys: &str| {
+        let options = ["screenshot", "cmsc23700", "--size", "80x80", "--keys", keys];
+        let output = shadowlab(&folder, &options);
+        assert!(output.status.success(), "{keys}");
+        std::fs::read(folder.join("cmsc23700.png")).unwrap()
+    };
+    let plain = picture("q");
+    assert!(picture("+-") == plain);
+    assert!(picture("--++") == picture("--++q"));
+    // The controls.
+    assert!(picture("-") != plain);
+    assert!(picture("+") != plain);
 }
 
 #[test]

@@ -63,6 +63,27 @@ const CASES: &[Case] = &[
             ("second pass: Render", 9),
         ],
     },
+    Case {
+        lab: "cmsc23700",
+        settings: &["redraw=every_frame", "balls=100"],
+        passes: &[
+            ("the balls' places", 0),
+            ("first pass", 0),
+            // Four walls, and all balls at once.
+            ("first pass: the directional light's shadow map", 5),
+            ("first pass: the spotlight's shadow map", 5),
+            ("second pass", 5),
+        ],
+    },
+    Case {
+        lab: "cmsc23700",
+        settings: &["redraw=every_frame", "balls=0", "lights=spotlight"],
+        passes: &[
+            ("first pass", 0),
+            ("first pass: the spotlight's shadow map", 4),
+            ("second pass", 4),
+        ],
+    },
 ];
 
 impl Case {
@@ -181,7 +202,7 @@ fn superfluous_calls_are_found() {
 #[test]
 fn at_rest_there_is_no_shadow_pass() {
     for lab in shadowlab::labs::LABS {
-        let mut bench = Bench::recorded(lab.name, [64, 64], &["rotation=off"]);
+        let mut bench = Bench::recorded(lab.name, [64, 64], &[]);
         let mut calls = || {
             bench.render();
             parse_c(&trace::to_c(&trace::take()))

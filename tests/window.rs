@@ -216,6 +216,52 @@ fn a_window_that_is_closed_ends_well() {
     assert_eq!(viewer.end().code(), Some(0));
 }
 
+/// A ball that is added later is on another way: the screenshot's command line waits as the person did. Each light's map
+/// is shown in its turn, and the handout's key ends the viewer.
+#[test]
+fn balls_are_added_at_their_time_and_the_handouts_key_quits() {
+    let folder = work_folder("window-balls");
+    let desktop = Desktop::new(&folder);
+    let mut viewer = Viewer::open_lab(&desktop, "cmsc23700", "--size 300x300 --keys ++ --time 0.5");
+    viewer.press("plus");
+    std::thread::sleep(Duration::from_millis(300));
+    viewer.press("minus minus plus plus");
+    let (shot, line) = assert_shot_is_headless(&folder, &viewer);
+    assert!(line.contains("--keys '++<Wait:0."), "{line}");
+    // The control: the keys first.
+    let waits = line.matches("<Wait:").count();
+    assert!(waits >= 2, "{line}");
+    let mut words = line.split('\'');
+    let keys = words.nth(1).unwrap();
+    let without: String = keys
+        .split('<')
+        .map(|part| part.split('>').next_back().unwrap())
+        .collect();
+    let other = headless(&folder, &line.replace(keys, &without));
+    assert!(compare(&DynamicImage::from(shot), &other, SHARE_BEYOND).is_err());
+
+    // Time stands still; so the corner changes with the inset alone.
+    viewer.press("space");
+    let paused = || viewer.title().contains("paused");
+    let tries = (0..500).take_while(|_| !paused());
+    tries.for_each(|_| std::thread::sleep(Duration::from_millis(20)));
+    assert!(paused());
+    let cut = |screen: &RgbImage| image::imageops::crop_imm(screen, 210, 160, 80, 60).to_image();
+    let corner = |differs_from: Option<&RgbImage>| {
+        let is_new = |screen: &RgbImage| differs_from.is_none_or(|other| cut(screen) != *other);
+        cut(&desktop.wait_for_screen([300, 300], is_new))
+    };
+    let plain = corner(None);
+    viewer.press("m");
+    let first = corner(Some(&plain));
+    viewer.press("m");
+    assert!(corner(Some(&first)) != plain);
+    viewer.press("m");
+    desktop.wait_for_screen([300, 300], |screen| cut(screen) == plain);
+    viewer.press("q");
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
 #[test]
 fn so_many_frames_and_no_more() {
     let folder = work_folder("window-frames");

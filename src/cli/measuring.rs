@@ -70,16 +70,17 @@ struct Asked {
     seconds: f64,
 }
 
-fn ask(running: &Running, light: usize) -> Asked {
+fn ask(running: &Running, light: usize) -> Result<Asked> {
+    running.lab.check_light(light)?;
     let start = Instant::now();
     let rays = Rays::new(&running.lab.now(), light - 1);
     let progress = Progress::new("casting rays", running.size[1].into());
     let truth = rays.truth_row_by_row(running.size, || progress.add(1));
-    Asked {
+    Ok(Asked {
         rays,
         truth,
         seconds: start.elapsed().as_secs_f64(),
-    }
+    })
 }
 
 impl Asked {
@@ -102,7 +103,7 @@ impl TruthCommand {
     pub fn run(&self) -> Result<()> {
         self.output.check(&self.state.lab)?;
         let running = self.state.start(&self.drawing, &[], false)?;
-        let asked = ask(&running, self.output.light);
+        let asked = ask(&running, self.output.light)?;
         let truth = &asked.truth;
         let edges = truth.edges();
         if let Some(path) = &self.output.output {
@@ -160,7 +161,7 @@ impl MeasureCommand {
                 gl::read_grey(&running.context.gl, running.size)
             }
         };
-        let asked = ask(&running, light);
+        let asked = ask(&running, light)?;
         let measure = Measure::new(&asked.rays, &asked.truth);
         let map = if self.reference.is_some() {
             None

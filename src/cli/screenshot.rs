@@ -42,7 +42,7 @@ enum Shown {
     Picture,
     /// 255 lit, 0 in shadow by the lab's own test, 255 where there is no surface
     Visibility,
-    /// The depth map for the eye: distance from the light, black near, white far
+    /// The depth map for the eye: black near, white far; by distance, or by depth where the handout says so
     ShadowMap,
     /// The depth texture as it is: 16-bit PNG, or 32-bit floats if the file ends in .pfm
     DepthRaw,
@@ -117,9 +117,10 @@ impl Running {
                 if shown == Shown::DepthRaw {
                     return picture::write_depths(output, &depths, &notes);
                 }
+                let projection = self.lab.grey().of(scale.projection);
                 picture::write_grey(
                     output,
-                    &depths.linearised(scale.projection, scale.near, scale.far),
+                    &depths.linearised(projection, scale.near, scale.far),
                     &notes,
                 )
             }

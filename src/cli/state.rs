@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use shadowlab::gl;
 use shadowlab::headless::{Choice, Headless};
-use shadowlab::labs::{self, Handout, Lab, Show, parse_keys};
+use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
 use shadowlab::scene::{self, Scene};
 use shadowlab::{Error, Result};
 
 use super::timings::Timings;
-use super::values::{parse_size, parse_time};
+use super::values::{MOST_TIME, parse_size, parse_time};
 
 /// The step of time between the frames of --frames, in seconds.
 const FRAME: f64 = 1.0 / 60.0;
@@ -39,12 +39,13 @@ pub struct Changes {
     /// Give a setting another value; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse
+    /// Press keys first, for example "wwa<Left><Left>"; <Drag:12,-5> and <Wheel:1> are the mouse, <Wait:0.5> lets seconds pass
     #[arg(
         long,
         value_name = "KEYS",
         default_value = "",
-        hide_default_value = true
+        hide_default_value = true,
+        allow_hyphen_values = true
     )]
     pub keys: String,
     /// Seconds that pass before the first frame
@@ -143,7 +144,20 @@ impl State {
         for assignment in &self.changes.set {
             lab.settings().set(assignment)?;
         }
-        for input in parse_keys(&self.changes.keys)? {
+        let inputs = parse_keys(&self.changes.keys)?;
+        let waits = inputs.iter().map(|input| match input {
+            Input::Wait(seconds) => *seconds,
+            _ => 0.0,
+        });
+        let time = waits.sum::<f64>() + self.changes.time;
+        let most = lab.most_time().min(MOST_TIME);
+        if time > most {
+            return Err(Error::usage(format!(
+                "--time {time}: {} expected a number of seconds, 0 to {most}",
+                handout.name
+            )));
+        }
+        for input in inputs {
             if !lab.input(input) {
                 return Err(Error::usage(format!(
                     "--keys: {} has no key {input}, expected one of {}",

@@ -16,7 +16,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Rounds the vertices to f32, once, and sends them to the driver. `name` is for the trace.
+    /// Rounds the vertices to f32, once, and sends them to the driver. `name` is for the trace. The vertex array stays
+    /// bound: a lab may add attributes of its own.
     pub fn new(gl: &glow::Context, name: &str, mesh: &scene::Mesh) -> Result<Self> {
         let mut vertices: Vec<f32> = Vec::with_capacity(8 * mesh.positions.len());
         for ((position, normal), uv) in mesh
@@ -75,5 +76,19 @@ impl Mesh {
     /// Draws the mesh that was drawn last, once more.
     pub fn draw_again(&self, gl: &glow::Context) {
         unsafe { gl.draw_elements(glow::TRIANGLES, self.index_count, glow::UNSIGNED_INT, 0) };
+    }
+
+    /// Draws the mesh as often as there are instances, each with its own values of the attributes that have a divisor.
+    pub fn draw_instances(&self, gl: &glow::Context, instances: usize) {
+        unsafe {
+            gl.bind_vertex_array(Some(self.vertex_array));
+            gl.draw_elements_instanced(
+                glow::TRIANGLES,
+                self.index_count,
+                glow::UNSIGNED_INT,
+                0,
+                instances as i32,
+            );
+        }
     }
 }

@@ -5,10 +5,12 @@ use std::fmt;
 use crate::{Error, Result, error};
 
 /// What a person does to a lab.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Input {
     Key(Key),
     Pointer(Pointer),
+    /// Nothing, for so many seconds.
+    Wait(f64),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,11 +55,15 @@ const NAMED: [(&str, Key); 9] = [
     ("lt", Key::Char('<')),
 ];
 
-/// The movements of the mouse that `--keys` writes as `<Name:numbers>`, and what each name's numbers are.
-const MOVEMENTS: [(&str, &str); 3] = [
+/// The longest wait, in seconds: a year.
+const LONGEST_WAIT: f64 = 31_557_600.0;
+
+/// The movements of the mouse, and the wait, that `--keys` writes as `<Name:numbers>`, and what each name's numbers are.
+const MOVEMENTS: [(&str, &str); 4] = [
     ("Drag", "<Drag:12,-5>: right and down, in pixels"),
     ("RightDrag", "<RightDrag:12,-5>: right and down, in pixels"),
     ("Wheel", "<Wheel:1>: steps away from the person"),
+    ("Wait", "<Wait:0.5>: seconds that pass"),
 ];
 
 impl fmt::Display for Input {
@@ -69,6 +75,7 @@ impl fmt::Display for Input {
                 Button::Right => write!(f, "<RightDrag:{dx},{dy}>"),
             },
             Self::Pointer(Pointer::Wheel(steps)) => write!(f, "<Wheel:{steps}>"),
+            Self::Wait(seconds) => write!(f, "<Wait:{seconds}>"),
         }
     }
 }
@@ -99,7 +106,7 @@ pub fn parse_keys(text: &str) -> Result<Vec<Input>> {
             ))
         })?;
         inputs.push(match name.split_once(':') {
-            Some((movement, numbers)) => Input::Pointer(parse_movement(movement, numbers)?),
+            Some((movement, numbers)) => parse_movement(movement, numbers)?,
             None => Input::Key(parse_named(name)?),
         });
         rest = after;
@@ -120,13 +127,20 @@ fn parse_named(name: &str) -> Result<Key> {
     Ok(*key)
 }
 
-fn parse_movement(name: &str, numbers: &str) -> Result<Pointer> {
+fn parse_movement(name: &str, numbers: &str) -> Result<Input> {
+    // A NaN is in no range.
+    let seconds = numbers.parse().ok();
+    if let Some(seconds) = seconds.filter(|s| (0.0..=LONGEST_WAIT).contains(s))
+        && name == "Wait"
+    {
+        return Ok(Input::Wait(seconds));
+    }
     let parsed: Option<Vec<i32>> = numbers.split(',').map(|n| n.parse().ok()).collect();
-    let drag = |button, dx, dy| Ok(Pointer::Drag { button, dx, dy });
+    let drag = |button, dx, dy| Ok(Input::Pointer(Pointer::Drag { button, dx, dy }));
     match (name, parsed.as_deref()) {
         ("Drag", Some(&[dx, dy])) => drag(Button::Left, dx, dy),
         ("RightDrag", Some(&[dx, dy])) => drag(Button::Right, dx, dy),
-        ("Wheel", Some(&[steps])) => Ok(Pointer::Wheel(steps)),
+        ("Wheel", Some(&[steps])) => Ok(Input::Pointer(Pointer::Wheel(steps))),
         _ => {
             let known = MOVEMENTS.iter().find(|(known, _)| *known == name);
             let expected = match known {
@@ -149,9 +163,9 @@ mod tests {
 
     #[test]
     fn what_is_parsed_is_written_the_same() {
-        let text = "wwa<Left><PageUp>W<lt>é<F1><Drag:12,-5><RightDrag:0,7><Wheel:-2>";
+        let text = "wwa<Left><PageUp>W<lt>é<F1><Drag:12,-5><RightDrag:0,7><Wheel:-2><Wait:0.25>";
         let keys = parse_keys(text).unwrap();
-        assert_eq!(keys.len(), 12);
+        assert_eq!(keys.len(), 13);
         let written: String = keys.iter().map(Input::to_string).collect();
         assert_eq!(written, text);
     }
@@ -165,6 +179,9 @@ mod tests {
             ("<Drag:1>", "right and down"),
             ("<Drag:1.5,2>", "right and down"),
             ("<Wheel:>", "steps"),
+            ("<Wait:-1>", "seconds"),
+            ("<Wait:NaN>", "seconds"),
+            ("<Wait:1,2>", "seconds"),
             ("<Swipe:1,2>", "<Wheel:1>"),
         ] {
             let error = parse_keys(text).unwrap_err().to_string();

@@ -18,12 +18,17 @@ pub use explanation::{Explanation, Probe, Step};
 pub use keys::{Button, Input, Key, Pointer, parse_keys};
 pub use settings::{Kind, Setting, Settings};
 
-use crate::picture::Projection;
+use crate::picture::{Grey, Projection};
 use crate::scene::Scene;
 use crate::{Error, Result, error};
 
 /// Every lab, in the order in which they are listed.
-pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT, &aueb7::HANDOUT];
+pub static LABS: &[&Handout] = &[
+    &cs541::HANDOUT,
+    &csci3260::HANDOUT,
+    &cmsc23700::HANDOUT,
+    &aueb7::HANDOUT,
+];
 
 /// What is known of a lab before there is a context.
 pub struct Handout {
@@ -33,6 +38,8 @@ pub struct Handout {
     /// The size of the course's window, in pixels.
     pub size: [u32; 2],
     pub keys: &'static [(&'static str, &'static str)],
+    /// The key of the handout that ends the viewer, as escape does. Without a window it changes nothing.
+    pub quit: Option<Key>,
     pub settings: &'static [Setting],
     /// What the handout shows, in its order.
     pub stages: &'static [Stage],
@@ -71,11 +78,25 @@ pub trait Lab {
         match input {
             Input::Key(key) => self.key(key),
             Input::Pointer(pointer) => self.pointer(pointer),
+            Input::Wait(seconds) => {
+                self.advance(seconds);
+                true
+            }
         }
+    }
+
+    /// Whether it makes a difference at what time a key is pressed.
+    fn keys_ask_time(&self) -> bool {
+        false
     }
 
     /// The default framebuffer has a new size, in pixels.
     fn resize(&mut self, size: [u32; 2]);
+
+    /// The most time, in seconds, that the lab can let pass before a picture.
+    fn most_time(&self) -> f64 {
+        f64::INFINITY
+    }
 
     /// Lets time pass, in seconds. There is no other clock.
     fn advance(&mut self, dt: f64);
@@ -88,6 +109,16 @@ pub trait Lab {
 
     /// Compiles the shaders again, from their files. After an error the lab draws on with those it had.
     fn reload(&mut self, gl: &glow::Context) -> Result<()>;
+
+    /// A light (from 1) that is off has no shadow to ask for.
+    fn check_light(&self, _light: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// What the grey of a depth map stands for: the distance, unless the handout wants to see the depths as they are.
+    fn grey(&self) -> Grey {
+        Grey::Distance
+    }
 
     /// The depth map of a light (from 1), as the last frame drew it.
     fn shadow_texture(&self, light: usize) -> Result<ShadowTexture>;

@@ -117,7 +117,8 @@ impl Panels {
         let text = match &map {
             Ok(map) => format!(
                 "light {light}: near {} (black), far {} (white)",
-                map.scale.near, map.scale.far
+                short(map.scale.near),
+                short(map.scale.far)
             ),
             Err(error) => error.to_string(),
         };
@@ -133,7 +134,7 @@ impl Panels {
             self.overlay.draw_inset(
                 gl,
                 map.texture,
-                map.scale.projection,
+                lab.grey().of(map.scale.projection),
                 [map.scale.near, map.scale.far],
                 area,
             );
@@ -147,6 +148,12 @@ impl Panels {
             ground: Ground::Plain,
         }
     }
+}
+
+/// A number to four digits.
+fn short(number: f64) -> f64 {
+    let text = format!("{number:.3e}");
+    text.parse().expect("a number that was just written")
 }
 
 /// The lab's keys and the viewer's own, in two columns where there is room for them.

@@ -19,10 +19,12 @@ pub struct State<'a> {
     /// The other options, as they were given to the viewer.
     pub options: &'a [String],
     pub inputs: &'a [Input],
+    /// After the inputs, in seconds.
     pub time: f64,
 }
 
-/// All keys come before all of the time, however they fell: no lab's keys ask what time it is.
+/// All keys come before all of the time, however they fell, unless the lab's keys ask what time it is: then there are
+/// waits among them.
 pub fn command_line(state: &State) -> String {
     let [width, height] = state.size;
     let mut words: Vec<String> = ["shadowlab", "screenshot", state.lab, "--size"]

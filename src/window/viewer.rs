@@ -55,6 +55,8 @@ pub struct Viewer {
     inputs: Vec<Input>,
     /// In seconds.
     time: f64,
+    /// How much of it the waits among the inputs tell.
+    waited: f64,
 
     paused: bool,
     vsync: bool,
@@ -123,6 +125,7 @@ impl Viewer {
             options: view.options,
             inputs: view.inputs,
             time: view.time,
+            waited: 0.0,
             paused: false,
             vsync: view.vsync,
             last_frame: None,
@@ -185,6 +188,9 @@ impl Viewer {
             self.title.written = None;
             self.canvas.window.request_redraw();
         } else if let Some(key) = keys::key(&event.logical_key) {
+            if self.handout.quit == Some(key) {
+                return Next::End;
+            }
             self.drag();
             self.input(Input::Key(key));
         }
@@ -200,6 +206,10 @@ impl Viewer {
     /// What the lab has no use for is not kept either.
     fn input(&mut self, input: Input) {
         if self.lab.input(input) {
+            if self.lab.keys_ask_time() && self.time > self.waited {
+                self.inputs.push(Input::Wait(self.time - self.waited));
+                self.waited = self.time;
+            }
             self.inputs.push(input);
             self.canvas.window.request_redraw();
         }
@@ -375,7 +385,7 @@ impl Viewer {
             size: self.size,
             options: &self.options,
             inputs: &self.inputs,
-            time: self.time,
+            time: self.time - self.waited,
         });
         tell(&format!("{}\n{line}", name.display()));
         Ok(())

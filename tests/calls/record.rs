@@ -60,10 +60,13 @@ pub fn dropping_and_swapping_fails(lines: &[Line], passes: &[&str], check: Check
             check(&dropped).expect_err(&format!("without {}", lines[at]));
             edits += 1;
 
-            if lines[at + 1].heading().is_none() && lines[at + 1].name != lines[at].name {
+            if let Some(next) = lines.get(at + 1)
+                && next.heading().is_none()
+                && next.name != lines[at].name
+            {
                 let mut swapped = lines.to_vec();
                 swapped.swap(at, at + 1);
-                check(&swapped).expect_err(&format!("{} after {}", lines[at], lines[at + 1]));
+                check(&swapped).expect_err(&format!("{} after {next}", lines[at]));
                 edits += 1;
             }
         }

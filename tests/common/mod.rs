@@ -71,7 +71,11 @@ impl Bench {
     }
 
     pub fn visibility(&mut self) -> image::GrayImage {
-        self.draw(Show::Visibility { light: 1 });
+        self.visibility_of(1)
+    }
+
+    pub fn visibility_of(&mut self, light: usize) -> image::GrayImage {
+        self.draw(Show::Visibility { light });
         gl::read_grey(&self.context.gl, self.size)
     }
 

@@ -1,4 +1,5 @@
 //! What `explain` says of a lab, held against the lab's own pictures and against f64.
+#![allow(dead_code)] // A lab with one light has no use for the choice of one.
 
 use shadowlab::labs::Probe;
 
@@ -8,8 +9,13 @@ const SIZE: [u32; 2] = [320, 240];
 
 /// Draws the pixels for a state, and returns how many of them were explained as surfaces.
 pub fn explained(lab: &str, settings: &[&str], pixels: u32, seed: u64) -> u32 {
+    explained_for(lab, 1, settings, pixels, seed)
+}
+
+/// The same for a light (from 1).
+pub fn explained_for(lab: &str, light: usize, settings: &[&str], pixels: u32, seed: u64) -> u32 {
     let mut bench = Bench::new(lab, SIZE, settings);
-    let visibility = bench.visibility();
+    let visibility = bench.visibility_of(light);
     let picture = bench.picture();
     let mut random = Random(seed);
     let mut surfaces = 0;
@@ -18,7 +24,7 @@ pub fn explained(lab: &str, settings: &[&str], pixels: u32, seed: u64) -> u32 {
         let pixel = [random.below(SIZE[0]), random.below(SIZE[1])];
         let explanation = bench
             .lab
-            .explain(&bench.context.gl, Probe::Pixel(pixel), 1)
+            .explain(&bench.context.gl, Probe::Pixel(pixel), light)
             .unwrap();
         let [x, y] = pixel;
         assert_eq!(explanation.color, Some(picture.get_pixel(x, y).0));

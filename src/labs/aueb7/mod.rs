@@ -51,6 +51,7 @@ pub static HANDOUT: Handout = Handout {
     title: "AUEB Computer Graphics, lab 7: a spotlight's shadow map, PCF",
     size: [500, 500],
     keys: KEYS,
+    quit: None,
     settings: SETTINGS,
     stages: stages::STAGES,
     lights: 1,

@@ -46,6 +46,7 @@ pub static HANDOUT: Handout = Handout {
     title: "CS 541, assignment 5: the two-pass shadow map, spot or point light",
     size: [500, 500],
     keys: KEYS,
+    quit: None,
     settings: SETTINGS,
     stages: stages::STAGES,
     lights: 1,

@@ -42,6 +42,7 @@ pub static HANDOUT: Handout = Handout {
     title: "CSCI 3260, tutorial 8: shadow mapping of a directional light",
     size: [800, 600],
     keys: KEYS,
+    quit: None,
     settings: SETTINGS,
     stages: stages::STAGES,
     lights: 1,

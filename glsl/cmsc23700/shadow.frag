@@ -1,0 +1,6 @@
+#version 330 core
+// First pass: the depth is all that is kept.
+
+void main()
+{
+}
