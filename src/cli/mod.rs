@@ -194,8 +194,8 @@ fn labs_text() -> String {
         text += "\n  settings (--set name=value)\n";
         for setting in lab.settings {
             let (default, expected) = (setting.kind.default_text(), setting.kind.expected());
-            text += &format!("    {:16}{}\n", setting.name, setting.help);
-            text += &format!("    {:16}{expected}; default {default}\n", "");
+            text += &format!("    {:21}{}\n", setting.name, setting.help);
+            text += &format!("    {:21}{expected}; default {default}\n", "");
         }
     }
     text

@@ -15,7 +15,8 @@
 //! Chosen, because the handout does not say it: which ball is removed (the newest), and which of the eight colours a
 //! ball has (they are given in turn); how many balls there are at the start, and both lights enabled; where the lights
 //! are, how they weaken, and their levels; that the walls cast; the size of the maps, their filter, what lies beside
-//! them (it is lit), and the bias of each. The handout's scene has no textures: none is drawn here.
+//! them (it is lit), and the bias of each. The handout's scene has no textures, no highlights and no sky, and so a
+//! student's has none here.
 //!
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]

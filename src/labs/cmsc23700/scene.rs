@@ -132,13 +132,13 @@ pub fn check_lights(scene: &Scene) -> Result<()> {
         _ => kinds.iter().map(kind_name).collect::<Vec<_>>().join(", "),
     };
     let other = match kinds[..] {
-        [LightKind::Directional { .. }] => ": csci3260 draws a directional light alone",
-        [_] => ": cs541 draws a spot or point light alone",
+        [LightKind::Directional { .. }] => " (csci3260 draws a directional light alone)",
+        [_] => " (cs541 draws a spot or point light alone)",
         _ => "",
     };
     let found = if found.is_empty() { "none" } else { &found };
     Err(Error::usage(format!(
-        "the scene's lights are: {found}; cmsc23700 expected two, directional, then spot with a circular beam{other}"
+        "found the lights: {found}; expected two: directional, then spot with a circular beam{other}"
     )))
 }
 
