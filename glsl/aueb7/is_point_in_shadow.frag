@@ -22,6 +22,7 @@ vec4 to_light_space(vec3 position_ecs)
     return position_lcs;
 }
 
+// Beside the map, before its near plane, beyond its far plane, or behind the light.
 bool is_outside(vec4 position_lcs)
 {
     return position_lcs.w <= 0.0

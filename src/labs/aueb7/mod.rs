@@ -2,7 +2,8 @@
 //!
 //! | the handout | here |
 //! |---|---|
-//! | `InitializeRenderer`, `Render`, keys | this file |
+//! | `InitializeRenderer`, `Render` | this file |
+//! | Key input | `movement.rs`, `settings.rs` |
 //! | `CreateShadowFBO`, `DrawSceneToShadowFBO` | `shadow_map.rs`; `glsl/aueb7/ShadowMap.vert`, `ShadowMap.frag` |
 //! | The spotlight shader, `DrawSportLightSource` | `spot_light.rs`; `glsl/aueb7/SpotLight.vert`, `SpotLight.frag` |
 //! | `root->draw(0)`, `root->draw(1)` | `spot_light.rs`: `draw`; [`crate::scene::graph`] |
@@ -21,6 +22,7 @@
 #![allow(unsafe_code)]
 
 mod explain;
+mod movement;
 mod programs;
 mod scenes;
 mod settings;
@@ -31,19 +33,20 @@ mod stages;
 use std::cell::OnceCell;
 use std::path::Path;
 
-use glam::{DMat4, DVec2, DVec3, dvec2};
+use glam::DMat4;
 use glow::HasContext;
 
 use super::{
-    Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
+    Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
 use crate::gl::{self, Program, Shaders};
 use crate::picture::Projection;
-use crate::scene::{Beam, Camera, Light, LightKind, Object, Scene, rotate, shapes};
+use crate::scene::{Beam, Light, LightKind, Object, Scene, shapes};
 use crate::{Error, Result};
+use movement::Moved;
 use programs::{Programs, SHADERS, with_shadow_test};
 use scenes::SceneGraph;
-use settings::{DEGREES_PER_SECOND, KEYS, SETTINGS, STEP, TARGET_STEP, TURN_STEP};
+use settings::{KEYS, SETTINGS};
 use shadow_map::{MapInputs, ShadowFbo, create_shadow_fbo};
 
 pub static HANDOUT: Handout = Handout {
@@ -59,9 +62,6 @@ pub static HANDOUT: Handout = Handout {
     scene: || Ok(scenes::scene_graph_example_init()?.flattened(DMat4::IDENTITY, 0.0)),
     start: |gl, scene, students| Ok(Box::new(Aueb7::initialize_renderer(gl, scene, students)?)),
 };
-
-/// F1's rendering modes.
-const MODES: [u32; 3] = [glow::FILL, glow::LINE, glow::POINT];
 
 struct Aueb7 {
     /// Each is made when it is first asked for.
@@ -96,16 +96,6 @@ struct Aueb7 {
 struct Model {
     mesh: gl::Mesh,
     texture: glow::Texture,
-}
-
-/// What keys and mouse have moved.
-#[derive(Clone, Copy, Default)]
-struct Moved {
-    eye: DVec3,
-    target: DVec3,
-    world: DVec3,
-    /// The world's turn about y, then about x, in degrees.
-    turned: DVec2,
 }
 
 impl Aueb7 {
@@ -202,70 +192,11 @@ impl Aueb7 {
         &self.graph().surroundings
     }
 
-    /// What the graph's root hangs under: the world, translated and turned.
-    fn world(&self) -> DMat4 {
-        let Moved { world, turned, .. } = self.moved;
-        DMat4::from_translation(world) * rotate(turned.y, DVec3::X) * rotate(turned.x, DVec3::Y)
-    }
-
     /// What is drawn, each with its matrix to world space.
     fn geometry(&self) -> Vec<(&Object, DMat4)> {
         self.graph().root.geometry(self.world(), self.spin_time())
     }
-
-    fn camera(&self) -> Camera {
-        let camera = self.scene().camera;
-        Camera {
-            eye: camera.eye + self.moved.eye,
-            look: camera.look + self.moved.target - self.moved.eye,
-            ..camera
-        }
-    }
-
-    fn spin_time(&self) -> f64 {
-        match self.settings.switch("rotation") {
-            true => self.time,
-            false => 0.0,
-        }
-    }
-
-    /// How far the light has turned, in degrees.
-    fn light_angle(&self) -> f64 {
-        match self.settings.switch("rotate_light") {
-            // Whole turns leave first: the angle stays small however long the program runs.
-            true => (DEGREES_PER_SECOND * self.time) % 360.0,
-            false => 0.0,
-        }
-    }
-
-    fn move_by(&mut self, movement: impl FnOnce(&mut Moved)) {
-        let before = self.moved;
-        movement(&mut self.moved);
-        // In its target, or straight above it, the camera has no right.
-        let Camera { look, rup, .. } = self.camera();
-        let across = look.normalize_or_zero().cross(rup.normalize());
-        if across.length() < LEAST_ACROSS {
-            self.moved = before;
-        }
-    }
-
-    fn next_rendering_mode(&mut self) {
-        let present = MODES.iter().position(|mode| *mode == self.polygon_mode);
-        let next = present.map_or(0, |present| (present + 1) % MODES.len());
-        self.polygon_mode = MODES[next];
-    }
-
-    fn toggle_rotate_light(&mut self) {
-        let other = match self.settings.switch("rotate_light") {
-            true => "rotate_light=off",
-            false => "rotate_light=on",
-        };
-        self.settings.set(other).expect("a switch has both values");
-    }
 }
-
-/// The sine of the smallest angle between the camera's look and its up vector.
-const LEAST_ACROSS: f64 = 1e-3;
 
 /// What the settings ask for, no larger than the driver allows.
 fn map_size(largest_map: u32, settings: &Settings) -> u32 {
@@ -278,38 +209,11 @@ impl Lab for Aueb7 {
     }
 
     fn key(&mut self, key: Key) -> bool {
-        match key {
-            Key::F1 => self.next_rendering_mode(),
-            Key::Char('l') => self.toggle_rotate_light(),
-            Key::Char('w') => self.move_by(|moved| moved.eye.z -= STEP),
-            Key::Char('s') => self.move_by(|moved| moved.eye.z += STEP),
-            Key::Char('a') => self.move_by(|moved| moved.eye.x -= STEP),
-            Key::Char('d') => self.move_by(|moved| moved.eye.x += STEP),
-            Key::Char('r') => self.move_by(|moved| moved.eye.y += STEP),
-            Key::Char('f') => self.move_by(|moved| moved.eye.y -= STEP),
-            Key::Up => self.moved.world.z -= STEP,
-            Key::Down => self.moved.world.z += STEP,
-            Key::Left => self.moved.world.x -= STEP,
-            Key::Right => self.moved.world.x += STEP,
-            Key::PageUp => self.moved.world.y += STEP,
-            Key::PageDown => self.moved.world.y -= STEP,
-            _ => return false,
-        }
-        true
+        self.press(key)
     }
 
     fn pointer(&mut self, pointer: Pointer) -> bool {
-        let Pointer::Drag { button, dx, dy } = pointer else {
-            return false;
-        };
-        let pixels = dvec2(f64::from(dx), f64::from(dy));
-        match button {
-            Button::Left => self.move_by(|moved| {
-                moved.target += TARGET_STEP * dvec2(pixels.x, -pixels.y).extend(0.0);
-            }),
-            Button::Right => self.moved.turned += TURN_STEP * pixels,
-        }
-        true
+        self.drag(pointer)
     }
 
     fn resize(&mut self, size: [u32; 2]) {
