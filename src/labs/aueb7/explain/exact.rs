@@ -33,8 +33,8 @@ pub struct Exact {
     pub position_ecs: [Range; 3],
     pub position_lcs: [Range; 4],
     pub nearer: Range,
-    pub stored: [Range; 9],
-    pub visible: [Range; 9],
+    pub stored: Vec<Range>,
+    pub visible: Vec<Range>,
     pub shadow_factor: Range,
 }
 
@@ -64,11 +64,12 @@ impl Aueb7 {
         let nearer = shifted(&position_lcs[2], -self.bias());
         let nearer = widened(nearer, ROUNDING);
         let stored = self.exact_stored(&position_lcs);
-        let visible: [Range; 9] =
-            std::array::from_fn(|i| self.exact_visible(i, &position_lcs, &nearer, &stored[i]));
-        let count = self.samples();
+        let samples = SAMPLES.iter().zip(&stored);
+        let visible = samples
+            .map(|(sample, stored)| self.exact_visible(*sample, &position_lcs, &nearer, stored));
+        let visible: Vec<Range> = visible.collect();
         let mean = |value: fn(&Range) -> f64| {
-            visible[..count].iter().map(value).sum::<f64>() / count as f64
+            visible.iter().map(value).sum::<f64>() / visible.len() as f64
         };
         let shadow_factor = Range {
             value: mean(|range| range.value),
@@ -172,13 +173,13 @@ impl Aueb7 {
 
     /// What each sample finds in the map of an exact rasteriser, and in the texels beside it as far as the lookup may be
     /// off.
-    fn exact_stored(&self, [s, t, ..]: &[Range; 4]) -> [Range; 9] {
+    fn exact_stored(&self, [s, t, ..]: &[Range; 4]) -> Vec<Range> {
         let (mut map, terms) = self.exact_map();
         let off = s.radius().max(t.radius()) + ROUNDING;
         let light = self.light();
         let (near, far) = (light.near, light.far);
-        SAMPLES.map(|sample| {
-            let uv = dvec2(s.value, t.value) + self.sample_step() * sample;
+        let at_sample = |sample: &DVec2| {
+            let uv = dvec2(s.value, t.value) + self.sample_step() * *sample;
             let found = map.lookup(uv);
             let nearby = corners(off).map(|offset| map.lookup(uv + offset));
             let nearby = nearby.iter().flat_map(|range| [range.least, range.most]);
@@ -186,7 +187,8 @@ impl Aueb7 {
             // Rounding of the surface's depth before its division by w, the distance from the light.
             let distance = near * far / (far - all.least * (far - near));
             widened(all, ROUNDING * (1.0 + terms / distance))
-        })
+        };
+        SAMPLES[..self.samples()].iter().map(at_sample).collect()
     }
 
     /// The map, and the largest terms of the depths in it, before the division by w.
@@ -207,12 +209,12 @@ impl Aueb7 {
     /// What `is_point_in_shadow` can be at a sample.
     fn exact_visible(
         &self,
-        sample: usize,
+        sample: DVec2,
         position_lcs: &[Range; 4],
         nearer: &Range,
         stored: &Range,
     ) -> Range {
-        let offset = self.sample_step() * SAMPLES[sample];
+        let offset = self.sample_step() * sample;
         let [s, t, depth, w] = position_lcs;
         let xyz = [shifted(s, offset.x), shifted(t, offset.y), *depth];
         let is_inside = w.value > 0.0 && xyz.iter().all(|c| (0.0..=1.0).contains(&c.value));

@@ -111,17 +111,12 @@ impl Aueb7 {
                 &[gpu.nearer],
                 &[exact.nearer],
             ),
-            step(
-                "shadow_map_z",
-                names,
-                &gpu.stored[..count],
-                &exact.stored[..count],
-            ),
+            step("shadow_map_z", names, &gpu.stored[..count], &exact.stored),
             step(
                 "is_point_in_shadow",
                 names,
                 &gpu.visible[..count],
-                &exact.visible[..count],
+                &exact.visible,
             ),
             step(
                 "shadow_factor",
