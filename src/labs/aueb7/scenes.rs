@@ -170,15 +170,15 @@ pub fn scene_graph_example_2_init() -> Result<SceneGraph> {
 }
 
 /// A palace in the manner of Knossos. Where it stands was chosen: low enough for the light to reach into its court, and
-/// within the shadow map as far as it is seen.
+/// with almost all that is seen of it within the shadow map.
 #[doc(alias = "SceneGraphExample3Init")]
 pub fn scene_graph_example_3_init() -> Result<SceneGraph> {
     let mut graph = SceneGraph::new(dvec3(0.0, 100.0, 170.0), dvec3(60.0, 30.0, 0.0));
     graph.add(
         TransformNode::new(
-            dvec3(0.0, -12.0, 4.0),
+            dvec3(5.0, -10.0, 4.0),
             rotate(18.0, DVec3::Y),
-            DVec3::splat(1.1),
+            DVec3::splat(1.05),
         ),
         load_obj(PALACE)?,
     );
