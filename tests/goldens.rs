@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use common::{Bench, SHARE_BEYOND, compare, work_folder};
-use image::DynamicImage;
+use image::{DynamicImage, RgbImage, imageops};
 
 /// The same as [`SHARE_BEYOND`] for acne of 16-bit depths, and of two maps at once, whose every dot hangs on how a depth
 /// was rounded. Measured: 0.21 %, 0.05 %.
@@ -288,6 +288,55 @@ fn every_case_is_as_its_golden() {
         "look at them, then `cargo xtask bless`:\n{}",
         lines.join("\n")
     );
+}
+
+/// Exercise 3 of aueb7 as a whole: a ball and its shadow by each kernel and step, from 128 to 1024 texels.
+fn pcf_sheet() -> DynamicImage {
+    const PART: [u32; 2] = [120, 140];
+    let kernels = [
+        ("none", 2),
+        ("pcf_5", 1),
+        ("pcf_5", 2),
+        ("pcf_5", 4),
+        ("pcf_9", 1),
+        ("pcf_9", 2),
+        ("pcf_9", 4),
+    ];
+    let sizes = [128, 256, 512, 1024];
+    let mut bench = Bench::new("aueb7", [400, 400], &[]);
+    let mut sheet = RgbImage::new(PART[0] * sizes.len() as u32, PART[1] * kernels.len() as u32);
+    for ((filter, step), row) in kernels.iter().zip(0..) {
+        for (size, column) in sizes.iter().zip(0..) {
+            bench.set(&[
+                &format!("filter={filter}"),
+                &format!("step={step}"),
+                &format!("map_size={size}"),
+            ]);
+            let picture = bench.picture();
+            let part = imageops::crop_imm(&picture, 250, 180, PART[0], PART[1]).to_image();
+            let place = [column * PART[0], row * PART[1]].map(i64::from);
+            imageops::replace(&mut sheet, &part, place[0], place[1]);
+        }
+    }
+    sheet.into()
+}
+
+#[test]
+fn each_kernel_step_and_map_size_is_as_in_the_golden() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/aueb7/pcf-sheet.png");
+    let sheet = pcf_sheet();
+    if std::env::var_os("SHADOWLAB_BLESS").is_some() {
+        sheet.save(golden).unwrap();
+        return;
+    }
+    let golden = image::open(golden).unwrap();
+    assert_eq!(compare(&golden, &sheet, SHARE_BEYOND), Ok(()));
+    // The control: two steps that change places.
+    let (four, two) = (
+        sheet.crop_imm(0, 840, 480, 140),
+        sheet.crop_imm(0, 700, 480, 140),
+    );
+    assert!(compare(&four, &two, SHARE_BEYOND).is_err());
 }
 
 #[test]
