@@ -7,6 +7,7 @@
 //! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
 //! | [`ground_truth`] | what is in shadow in truth: rays in f64, which know no lab |
 //! | [`measure`] | a visibility picture against the truth, in figures |
+//! | [`hard`] | scenes on which shadow tests are known to break, and what must come of each test |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
 //! | [`window`] | the desktop viewer |
 //! | [`picture`] | pictures and depth maps, written to files |
@@ -19,6 +20,7 @@
 pub mod error;
 pub mod gl;
 pub mod ground_truth;
+pub mod hard;
 pub mod headless;
 pub mod labs;
 pub mod measure;

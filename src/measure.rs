@@ -102,6 +102,39 @@ pub struct Measure<'a> {
     rays: &'a Rays,
     truth: &'a Truth,
     edge1: Vec<bool>,
+    clumps: Vec<Clump>,
+}
+
+/// Some triangles of one object, in a row, and a ball around them: what is farther than the nearest is passed over.
+struct Clump {
+    object: u32,
+    triangles: std::ops::Range<u32>,
+    centre: DVec3,
+    radius: f64,
+}
+
+/// The most triangles of a clump: the cost of finding the nearest triangle is flat around this.
+const CLUMP: usize = 64;
+
+fn clumps(rays: &Rays) -> Vec<Clump> {
+    let mut clumps = Vec::new();
+    let mut first = 0;
+    for of_object in rays.objects.chunk_by(|a, b| a == b) {
+        for part in of_object.chunks(CLUMP) {
+            let triangles = first..first + part.len() as u32;
+            first = triangles.end;
+            let corners = || triangles.clone().flat_map(|t| *rays.surfaces.triangle(t));
+            let centre = corners().sum::<DVec3>() / (3 * part.len()) as f64;
+            let radius = corners().map(|corner| corner.distance(centre));
+            clumps.push(Clump {
+                object: part[0],
+                radius: radius.fold(0.0, f64::max),
+                triangles,
+                centre,
+            });
+        }
+    }
+    clumps
 }
 
 impl<'a> Measure<'a> {
@@ -110,6 +143,7 @@ impl<'a> Measure<'a> {
             rays,
             truth,
             edge1: truth.edges(),
+            clumps: clumps(rays),
         }
     }
 
@@ -201,8 +235,7 @@ impl<'a> Measure<'a> {
                 }
                 MapWidth::Everywhere(_) => along(source.axis, point, across, normal, map),
             };
-            // Triangles that go on in the same plane are met at 1, give or take a rounding, and shadow nothing.
-            ray.is_some_and(|ray| self.rays.is_blocked(&ray, 1.0 - 1e-9, triangle) != own)
+            ray.is_some_and(|ray| self.rays.is_blocked(&ray, triangle) != own)
         })
     }
 
@@ -344,11 +377,15 @@ impl<'a> Measure<'a> {
         let (triangle, point) = self.truth.seen[i]?;
         let caster = self.rays.nearest_blocker(triangle, point)?.triangle;
         let object = self.rays.objects[caster as usize];
-        let of_object = (0..self.rays.objects.len() as u32)
-            .filter(|t| self.rays.objects[*t as usize] == object && *t != triangle);
-        let distances =
-            of_object.map(|t| distance_to_triangle(point, self.rays.surfaces.triangle(t)));
-        Some(distances.fold(f64::INFINITY, f64::min))
+        let distance = |t: u32| distance_to_triangle(point, self.rays.surfaces.triangle(t));
+        let mut nearest = distance(caster);
+        for clump in self.clumps.iter().filter(|clump| clump.object == object) {
+            if point.distance(clump.centre) - clump.radius < nearest {
+                let others = clump.triangles.clone().filter(|t| *t != triangle);
+                nearest = others.map(distance).fold(nearest, f64::min);
+            }
+        }
+        Some(nearest)
     }
 
     fn picture(&self, verdicts: &[Verdict]) -> RgbImage {

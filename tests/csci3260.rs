@@ -110,30 +110,6 @@ fn half_of_the_lit_surfaces_are_dark_without_bias_and_each_remedy_removes_that()
     }
 }
 
-/// On a plane whose normal is θ from the direction to the light, tilted about one axis of the map, texels of width w and
-/// a bias b leave the share ½·(1 − 2b/(w·tanθ)) of it in false shadow.
-#[test]
-fn acne_is_as_frequent_as_the_closed_form_says() {
-    let mut scene = course();
-    scene.objects.retain(|object| object.name == "sea");
-    let (texel, depth) = (20.0 / 1024.0, 30.0);
-    let tan = DVec3::Y.angle_between(-scene.lights[0].direction).tan();
-    for bias in [0.0, 0.0001, 0.0002, 0.0003, 0.0004] {
-        let settings = [format!("bias={bias}")];
-        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
-        let visibility = with_scene(scene.clone(), &settings).visibility();
-        // Rows of the sea alone.
-        let rows = visibility.enumerate_pixels().filter(|(_, y, _)| *y > 80);
-        let rows: Vec<bool> = rows.map(|(_, _, pixel)| pixel.0[0] == 0).collect();
-        let found = rows.iter().filter(|dark| **dark).count() as f64 / rows.len() as f64;
-        let expected = 0.5 * f64::max(0.0, 1.0 - 2.0 * bias * depth / (texel * tan));
-        assert!(
-            (found - expected).abs() < 0.01,
-            "{bias}: {found}, not {expected}"
-        );
-    }
-}
-
 #[test]
 fn the_bias_is_told_in_world_units_and_texels() {
     let bias = figures(&["scene=room"]).bias.unwrap();

@@ -26,6 +26,7 @@ const ROOMS: &[Room] = &[
         imports: &[
             "headless",
             "window",
+            "hard",
             "measure",
             "ground_truth",
             "labs",
@@ -49,6 +50,13 @@ const ROOMS: &[Room] = &[
         imports: &["labs", "gl", "scene", "picture", "error"],
         crates: &["glow", "glutin"],
         may_be_unsafe: true,
+    },
+    // Scenes, and what is expected of figures; knows the labs by their names only.
+    Room {
+        name: "hard",
+        imports: &["measure", "scene", "error"],
+        crates: &[],
+        may_be_unsafe: false,
     },
     // Knows a picture and the truth; of a lab no more than the size of its map.
     Room {

@@ -12,6 +12,7 @@ use std::io::Write;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
 use shadowlab::gl::trace;
+use shadowlab::hard;
 use shadowlab::labs::{self, Probe, Show, parse_keys};
 use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, headless};
@@ -197,6 +198,14 @@ fn labs_text() -> String {
             text += &format!("    {:21}{}\n", setting.name, setting.help);
             text += &format!("    {:21}{expected}; default {default}\n", "");
         }
+        let cases: Vec<_> = hard::cases().filter(|case| case.lab == lab.name).collect();
+        if !cases.is_empty() {
+            text += "\n  hard cases (--scene hard:NAME)\n";
+        }
+        for case in cases {
+            text += &format!("    {:18}{}\n", case.name, case.about);
+        }
+        text += "\n";
     }
     text
 }

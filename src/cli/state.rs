@@ -1,9 +1,10 @@
 //! A lab, brought to the state that a command line names.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use shadowlab::gl;
+use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
 use shadowlab::scene::{self, Scene};
@@ -14,6 +15,9 @@ use super::values::{MOST_TIME, parse_size, parse_time};
 
 /// The step of time between the frames of --frames, in seconds.
 const FRAME: f64 = 1.0 / 60.0;
+
+/// What the name of a hard case has before it, where a scene's file could stand.
+const HARD: &str = "hard:";
 
 /// Which state of which lab.
 #[derive(Args)]
@@ -27,7 +31,7 @@ pub struct State {
 /// How a lab's state differs from the one that it starts in.
 #[derive(Clone, Args)]
 pub struct Changes {
-    /// Draw the scene of this file in place of the lab's own
+    /// Draw the scene of this file in place of the lab's own; hard:NAME is one of the lab's hard cases
     #[arg(long, value_name = "FILE.toml")]
     scene: Option<PathBuf>,
     /// Let the scene name files outside of its folder
@@ -175,7 +179,25 @@ impl State {
         Ok(())
     }
 
+    /// The hard case that stands in place of a scene's file.
+    fn hard_case(&self) -> Result<Option<&'static Case>> {
+        let name = self.changes.scene.as_deref().and_then(Path::to_str);
+        let name = name.and_then(|name| name.strip_prefix(HARD));
+        let case = name.map(hard::find).transpose()?;
+        match case {
+            Some(case) if case.lab != self.lab => Err(Error::usage(format!(
+                "the hard case {} is drawn by {}, found {}",
+                case.name, case.lab, self.lab
+            ))),
+            _ => Ok(case),
+        }
+    }
+
+    /// What is drawn in place of the lab's own scene.
     pub fn students_scene(&self) -> Result<Option<Scene>> {
+        if let Some(case) = self.hard_case()? {
+            return Ok(Some((case.scene)()));
+        }
         let load = |path| scene::file::load(path, self.changes.allow_outside);
         self.changes.scene.as_deref().map(load).transpose()
     }

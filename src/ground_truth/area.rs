@@ -52,9 +52,7 @@ impl Rays {
         let stretch = samples.div_ceil(STRETCHES).max(1);
         let seen = |index: &u32| {
             let ray = Ray::new(point, light.point(*index) - point);
-            !self
-                .surfaces
-                .is_met(&ray, 1.0, |other| self.blocks(other, triangle))
+            !self.is_stopped(&ray, triangle, 1.0)
         };
         let mean_of_stretch = |number: u32| {
             let indices = number * stretch..(number + 1) * stretch;

@@ -2,7 +2,7 @@
 //!
 //! It knows no matrix of a lab and no depth map, so that it cannot share their faults. For each pixel centre a ray
 //! goes from the camera to the nearest triangle, and from there to the light; the triangle that is seen is left out of
-//! the second ray by its identity, never by an offset. What casts in OpenGL casts here: the first pass discards
+//! the second ray by its identity, never by an offset; another triangle in the same plane, by f64's own rounding. What casts in OpenGL casts here: the first pass discards
 //! nothing, so every triangle of an object that casts is opaque, from both sides. A surface is solid for the camera's ray,
 //! too: where a lab cuts holes by a texture's alpha, the picture shows what lies behind, and the truth does not.
 
@@ -40,7 +40,7 @@ pub struct Truth {
     pub size: [u32; 2],
     pub labels: Vec<Label>,
     /// Where the label hangs on less than a rasteriser promises: it changes when the pixel's sample point moves by
-    /// 1/256 pixel, or the surface is within 1e-4 of grazing.
+    /// 1/256 pixel, or the surface is within 1e-4 of grazing, or another one in the same place faces the other way.
     pub ambiguous: Vec<bool>,
     /// The triangle that is seen, and where; relative to the eye.
     pub seen: Vec<Option<(u32, DVec3)>>,
@@ -116,6 +116,9 @@ impl Rays {
     fn pixel(&self, size: [u32; 2], [x, y]: [u32; 2]) -> Pixel {
         let centre = dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let mut pixel = self.sample(size, centre);
+        if let Some((triangle, point)) = pixel.seen {
+            pixel.ambiguous |= self.has_another_side(triangle, point);
+        }
         for shift in [
             dvec2(SHIFT, 0.0),
             dvec2(-SHIFT, 0.0),
@@ -159,24 +162,49 @@ impl Rays {
         normal.dot(self.source.towards(point).normalize_or_zero())
     }
 
+    /// Along a ray that starts or ends on a triangle, the stretch in which it has not left the triangle's plane by more
+    /// than rounding: what it meets there is the same surface once more, a triangle that occurs twice.
+    fn in_plane(&self, triangle: u32, ray: &Ray) -> f64 {
+        let [a, b, c] = *self.surfaces.triangle(triangle);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        self.surfaces.rounding() / normal.dot(ray.direction).abs()
+    }
+
+    /// Whether a triangle in the same place faces the other way: which of the two a rasteriser shows is a tie.
+    fn has_another_side(&self, triangle: u32, point: DVec3) -> bool {
+        let ray = Ray::new(DVec3::ZERO, point);
+        let slack = self.in_plane(triangle, &ray);
+        let is_lit = self.facing(triangle, point) > 0.0;
+        self.surfaces
+            .is_met(&ray, 1.0 - slack, 1.0 + slack, |other| {
+                other != triangle && (self.facing(other, point) > 0.0) != is_lit
+            })
+    }
+
     /// Whether something stands between a point of a triangle and the light.
     pub fn is_shadowed(&self, triangle: u32, point: DVec3) -> bool {
         let ray = Ray::new(point, self.source.towards(point));
-        self.surfaces.is_met(&ray, self.source.end(), |other| {
-            self.blocks(other, triangle)
-        })
+        self.is_stopped(&ray, triangle, self.source.end())
     }
 
-    /// Whether a caster other than `triangle` meets a ray before `end`.
-    pub fn is_blocked(&self, ray: &Ray, end: f64, triangle: u32) -> bool {
+    /// Whether a caster meets a ray that starts on a triangle, before `end`.
+    fn is_stopped(&self, ray: &Ray, triangle: u32, end: f64) -> bool {
+        let near = self.in_plane(triangle, ray);
         self.surfaces
-            .is_met(ray, end, |other| self.blocks(other, triangle))
+            .is_met(ray, near, end, |other| self.blocks(other, triangle))
+    }
+
+    /// Whether a caster meets a ray that comes to a triangle's plane at 1.
+    pub fn is_blocked(&self, ray: &Ray, triangle: u32) -> bool {
+        let end = 1.0 - self.in_plane(triangle, ray);
+        self.surfaces
+            .is_met(ray, 0.0, end, |other| self.blocks(other, triangle))
     }
 
     /// What stands between a point of a triangle and the light, nearest to the point.
     pub fn nearest_blocker(&self, triangle: u32, point: DVec3) -> Option<Hit> {
         let ray = Ray::new(point, self.source.towards(point));
-        let mut near = f64::MIN_POSITIVE;
+        let mut near = self.in_plane(triangle, &ray);
         // What does not block is stepped over.
         while let Some(hit) = self.surfaces.nearest(&ray, near, self.source.end()) {
             if self.blocks(hit.triangle, triangle) {
@@ -209,7 +237,11 @@ impl Rays {
         }
         let ray = Ray::new(point, self.source.towards(point));
         let blocks = |other| self.blocks(other, hit.triangle);
-        match self.surfaces.is_met_by_any(&ray, self.source.end(), blocks) {
+        let near = self.in_plane(hit.triangle, &ray);
+        match self
+            .surfaces
+            .is_met_by_any(&ray, near, self.source.end(), blocks)
+        {
             true => Label::Shadowed,
             false => Label::Lit,
         }

@@ -20,6 +20,9 @@ const TREE_RADIUS: f64 = 1_048_576.0;
 /// How much each box is larger, in the tree's coordinates: some 60 times what f32 rounds there.
 const PADDING: f32 = 4.0;
 
+/// What f64 rounds in finding a point of a triangle, relative to the largest coordinates: some 64 roundings.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Triangles that rays can meet, each known by its index.
 pub struct Surfaces {
     triangles: Vec<[DVec3; 3]>,
@@ -86,13 +89,13 @@ impl Surfaces {
         best
     }
 
-    /// Whether any triangle that `blocks` says may, meets the ray at a `t` between 0 and `end`, both excluded.
-    pub fn is_met(&self, ray: &Ray, end: f64, blocks: impl Fn(u32) -> bool) -> bool {
+    /// Whether any triangle that `blocks` says may, meets the ray at a `t` between `near` and `end`, both excluded.
+    pub fn is_met(&self, ray: &Ray, near: f64, end: f64, blocks: impl Fn(u32) -> bool) -> bool {
         let meets = |triangle: u32| {
             blocks(triangle)
                 && ray
                     .meets(&self.triangles[triangle as usize])
-                    .is_some_and(|t| 0.0 < t && t < end)
+                    .is_some_and(|t| near < t && t < end)
         };
         match &self.tree {
             None => (0..self.triangles.len() as u32).any(meets),
@@ -120,10 +123,21 @@ impl Surfaces {
     }
 
     /// [`Self::is_met`] without the tree.
-    pub fn is_met_by_any(&self, ray: &Ray, end: f64, blocks: impl Fn(u32) -> bool) -> bool {
+    pub fn is_met_by_any(
+        &self,
+        ray: &Ray,
+        near: f64,
+        end: f64,
+        blocks: impl Fn(u32) -> bool,
+    ) -> bool {
         self.triangles.iter().zip(0..).any(|(corners, triangle)| {
-            blocks(triangle) && ray.meets(corners).is_some_and(|t| 0.0 < t && t < end)
+            blocks(triangle) && ray.meets(corners).is_some_and(|t| near < t && t < end)
         })
+    }
+
+    /// How far a point that was computed on a triangle may lie off its plane.
+    pub fn rounding(&self) -> f64 {
+        ROUNDING * (self.centre.length() + TREE_RADIUS / self.scale)
     }
 
     fn to_tree(&self, point: DVec3) -> Vec3A {

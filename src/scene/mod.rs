@@ -146,6 +146,26 @@ impl Scene {
         }
         self
     }
+
+    /// The same scene in another size: every length, of the camera and the lights too, times `factor`.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        let camera = &mut self.camera;
+        camera.eye *= factor;
+        camera.near *= factor;
+        camera.far = camera.far.map(|far| factor * far);
+        for light in &mut self.lights {
+            light.position *= factor;
+            light.near *= factor;
+            light.far *= factor;
+            if let LightKind::Directional { area } = &mut light.kind {
+                *area = area.map(|side| factor * side);
+            }
+        }
+        for object in &mut self.objects {
+            object.placement = DMat4::from_scale(DVec3::splat(factor)) * object.placement;
+        }
+        self
+    }
 }
 
 /// `Affine.h`'s `rotate`: degrees about an axis through the origin.

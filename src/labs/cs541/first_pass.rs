@@ -10,7 +10,7 @@ use super::Cs541;
 use crate::gl;
 use crate::scene::{Beam, Camera, Fov, LightKind, camera, rotate};
 
-/// How far behind a Plane its second copy stands, in world units.
+/// How far behind a Plane its second copy stands, as a share of half the Plane's shorter side: the same in every scale.
 const SECOND_PLANE_OFFSET: f64 = 0.05;
 
 /// Everything that decides what the shadow map holds.
@@ -131,7 +131,8 @@ impl Cs541 {
 /// The second copy of a Plane: a small amount behind the first one, facing the other way.
 fn second_plane(model: DMat4) -> DMat4 {
     let normal = DMat3::from_mat4(model).inverse().transpose() * DVec3::Z;
-    DMat4::from_translation(-SECOND_PLANE_OFFSET * normal.normalize())
+    let half_side = model.x_axis.length().min(model.y_axis.length());
+    DMat4::from_translation(-SECOND_PLANE_OFFSET * half_side * normal.normalize())
         * model
         * rotate(180.0, DVec3::X)
 }

@@ -12,8 +12,9 @@ use crate::Result;
 use crate::gl::{self, Program};
 use crate::scene::{Beam, Camera, Light, LightKind, Material, Object, camera, rotate};
 
-/// The radius of the sphere that shows where the light is, in world units.
-const MARKER_RADIUS: f64 = 0.12;
+/// The radius of the sphere that shows where the light is, as a share of the light's near distance: in no scale does it
+/// reach what is lit.
+const MARKER_RADIUS: f64 = 0.06;
 
 /// What is drawn without light and shadow: the dome around the eye, and the marker that shows where the light is.
 pub struct Sky {
@@ -211,11 +212,11 @@ impl Cs541 {
         }
         let light = &self.light();
         let offset = light.position - camera.eye;
+        let radius = MARKER_RADIUS * light.near;
         // From within, the marker would hide everything.
-        if offset.length() > 2.0 * MARKER_RADIUS {
+        if offset.length() > 2.0 * radius {
             unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(*marker_texture)) };
-            let model =
-                DMat4::from_translation(offset) * DMat4::from_scale(DVec3::splat(MARKER_RADIUS));
+            let model = DMat4::from_translation(offset) * DMat4::from_scale(DVec3::splat(radius));
             program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
             program.set(gl, "model_matrix", model);
             program.set(gl, "diffuse_color", light.color);
