@@ -238,6 +238,16 @@ const WRONG: &[(&str, i32, &[&str])] = &[
     ),
     ("truth cs542", 2, &["cs542"]),
     (
+        "truth cs541 --scene hard:wal",
+        2,
+        &["hard case \"wal\"", "did you mean \"wall\"?"],
+    ),
+    (
+        "truth csci3260 --scene hard:wall",
+        2,
+        &["hard case wall", "drawn by cs541, found csci3260"],
+    ),
+    (
         "truth cs541 -o missing/a.png",
         1,
         &["missing/a.png", "cannot write it"],

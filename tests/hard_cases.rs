@@ -137,6 +137,24 @@ fn every_case_has_a_control_and_a_test_that_holds() {
     }
 }
 
+/// The control: without its name, the lab's own scene is another.
+#[test]
+fn a_case_is_drawn_by_its_name() {
+    let truth = |arguments: &str| {
+        let program = std::process::Command::new(env!("CARGO_BIN_EXE_shadowlab"))
+            .args(format!("truth cs541 --json {arguments}").split_whitespace())
+            .output()
+            .unwrap();
+        assert!(program.status.success(), "{arguments}");
+        let figures: serde_json::Value = serde_json::from_slice(&program.stdout).unwrap();
+        ["width", "height", "shadowed"].map(|key| figures[key].as_u64().unwrap())
+    };
+    let [width, height, shadowed] = truth("--scene hard:wall");
+    assert_eq!([width, height], hard::SIZE.map(u64::from));
+    assert!(shadowed > 10_000, "{shadowed}");
+    assert!(truth("--size 320x240")[2] < shadowed);
+}
+
 /// The control of the table: each promise is kept by some figures and broken by others.
 #[test]
 fn a_promise_can_be_broken() {

@@ -203,9 +203,8 @@ fn labs_text() -> String {
             text += "\n  hard cases (--scene hard:NAME)\n";
         }
         for case in cases {
-            text += &format!("    {:18}{}\n", case.name, case.about);
+            text += &format!("    {:20}{}\n", case.name, case.about);
         }
-        text += "\n";
     }
     text
 }

@@ -21,7 +21,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "beyond-the-map",
-        about: "the same with a map that ends amid the boxes: their shadows streak outwards",
+        about: "a map that ends amid the boxes: its last texels streak outwards",
         lab: "csci3260",
         scene: || at_border([-6.0, 6.0, -5.0, 5.0]),
         expected: &[("stage=constant", FalseShadow(100))],

@@ -10,7 +10,7 @@ use crate::scene::{Beam, Object, Scene};
 pub const CASES: &[Case] = &[
     Case {
         name: "grazing-60",
-        about: "thin poles on a slab whose normal is 60 degrees from the light",
+        about: "thin poles on a slab, 60 degrees from its normal to the light",
         lab: "csci3260",
         scene: || poles(60.0),
         expected: &[
@@ -20,7 +20,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "grazing-75",
-        about: "the same at 75 degrees",
+        about: "thin poles on a slab, 75 degrees from its normal to the light",
         lab: "csci3260",
         scene: || poles(75.0),
         expected: &[
@@ -30,7 +30,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "grazing-85",
-        about: "the same at 85 degrees: a constant bias is just enough",
+        about: "at 85 degrees: a constant bias is just enough",
         lab: "csci3260",
         scene: || poles(85.0),
         expected: &[
@@ -40,7 +40,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "grazing-89",
-        about: "the same at 89 degrees: a slope scaled bias is cut off long before",
+        about: "at 89 degrees: a slope scaled bias is cut off long before",
         lab: "csci3260",
         scene: || poles(89.0),
         expected: &[
@@ -51,7 +51,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "grazing-89.9",
-        about: "the same at 89.9 degrees: a texel covers twelve units of the floor",
+        about: "at 89.9 degrees: a texel covers twelve units of the floor",
         lab: "csci3260",
         scene: || poles(89.9),
         expected: &[

@@ -41,7 +41,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "overhead-sun",
-        about: "the same in parallel light",
+        about: "parallel light straight from above, along the up vector of the world",
         lab: "csci3260",
         scene: overhead_sun,
         expected: &[
@@ -61,7 +61,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "beam-170",
-        about: "the same with a beam of 170 degrees",
+        about: "a beam of 170 degrees, with the casters of beam-150",
         lab: "cs541",
         scene: || wide_beam(170.0),
         expected: &[
@@ -73,7 +73,7 @@ pub const CASES: &[Case] = &[
         name: "windows",
         about: "a point light in a box with windows, seen where the shadow map reaches",
         lab: "cs541",
-        scene: || windows(dvec3(7.5, 6.0, 6.5), dvec3(7.0, 0.0, 0.0), 38.0),
+        scene: || windows(dvec3(8.0, 6.0, 6.5), dvec3(7.5, 0.0, 0.0), 38.0),
         expected: &[
             ("remedy=none filter=nearest", FalseShadow(5_000)),
             ("remedy=culling", Holds(0, 0)),
@@ -81,7 +81,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "windows-all-round",
-        about: "the same seen from above: one map cannot look through every window",
+        about: "the box with windows from above: one map cannot look through all of them",
         lab: "cs541",
         scene: || windows(dvec3(0.0, 14.0, 9.0), dvec3(0.0, 0.0, 0.5), 50.0),
         expected: &[("remedy=epsilon", FalseLight(5_000))],
@@ -98,7 +98,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "inside-near",
-        about: "the same with a near plane that cuts the caster open",
+        about: "a spot light inside a caster that its near plane cuts open",
         lab: "cs541",
         scene: || inside(0.3),
         expected: &[("remedy=epsilon", FalseLight(1_000))],

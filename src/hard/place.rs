@@ -3,46 +3,88 @@
 use glam::{DMat4, DVec3, dvec3};
 
 use super::Case;
-use super::Expected::{FalseShadow, Holds};
-use super::build::{ORANGE, at, camera, floor, object, scene, solid, spot};
-use crate::scene::{Beam, Scene, rotate, shapes};
+use super::Expected::{self, FalseShadow, Holds};
+use super::build::{ORANGE, at, camera, floor, object, scene, solid, spot, sun};
+use crate::scene::{Beam, Light, Scene, rotate, shapes};
 
 pub const CASES: &[Case] = &[
-    case("here", "a ring, a ball and a box on a floor", still_life),
-    case("far-1e5", "the same, 1e5 from the origin", || far(1e5)),
-    case("far-1e6", "the same, 1e6 from the origin", || far(1e6)),
-    case("scale-1e-3", "the same, a thousandth of its size", || {
-        still_life().scaled(1e-3)
+    in_spot("here", "a ring, a ball and a box on a floor", || {
+        still_life(lamp())
     }),
-    case("scale-1e4", "the same, 1e4 times its size", || {
-        still_life().scaled(1e4)
+    in_spot("far-1e5", "ring, ball and box 1e5 from the origin", || {
+        far(lamp(), 1e5)
+    }),
+    in_spot("far-1e6", "ring, ball and box 1e6 from the origin", || {
+        far(lamp(), 1e6)
+    }),
+    in_spot("scale-1e-3", "ring, ball and box times 1e-3", || {
+        still_life(lamp()).scaled(1e-3)
+    }),
+    in_spot("scale-1e4", "ring, ball and box times 1e4", || {
+        still_life(lamp()).scaled(1e4)
+    }),
+    in_sun(
+        "sun-far-1e6",
+        "ring, ball and box 1e6 from the origin",
+        || far(daylight(), 1e6),
+    ),
+    in_sun("sun-scale-1e-3", "ring, ball and box times 1e-3", || {
+        still_life(daylight()).scaled(1e-3)
+    }),
+    in_sun("sun-scale-1e4", "ring, ball and box times 1e4", || {
+        still_life(daylight()).scaled(1e4)
     }),
 ];
 
-const fn case(name: &'static str, about: &'static str, scene: fn() -> Scene) -> Case {
+const fn in_spot(name: &'static str, about: &'static str, scene: fn() -> Scene) -> Case {
+    const EXPECTED: &[(&str, Expected)] = &[
+        ("remedy=none filter=nearest", FalseShadow(5_000)),
+        ("remedy=epsilon", Holds(0, 0)),
+    ];
     Case {
         name,
         about,
         lab: "cs541",
         scene,
-        expected: &[
-            ("remedy=none filter=nearest", FalseShadow(5_000)),
-            ("remedy=epsilon", Holds(0, 0)),
-        ],
+        expected: EXPECTED,
     }
 }
 
-fn far(distance: f64) -> Scene {
-    still_life().moved(distance * dvec3(1.0, -2.0, 0.5))
+const fn in_sun(name: &'static str, about: &'static str, scene: fn() -> Scene) -> Case {
+    const EXPECTED: &[(&str, Expected)] = &[
+        ("stage=no_bias", FalseShadow(5_000)),
+        ("stage=pcf", Holds(0, 0)),
+    ];
+    Case {
+        name,
+        about,
+        lab: "csci3260",
+        scene,
+        expected: EXPECTED,
+    }
 }
 
-fn still_life() -> Scene {
+const TOWARDS: DVec3 = DVec3::new(4.0, 7.0, -3.0);
+
+fn lamp() -> Light {
+    spot(TOWARDS, DVec3::ZERO, 60.0, Beam::Circular)
+}
+
+fn daylight() -> Light {
+    sun(TOWARDS, [-11.0, 11.0, -11.0, 11.0])
+}
+
+fn far(light: Light, distance: f64) -> Scene {
+    still_life(light).moved(distance * dvec3(1.0, -2.0, 0.5))
+}
+
+fn still_life(light: Light) -> Scene {
     let ring =
         at(dvec3(-0.9, 0.9, 0.8)) * rotate(-60.0, DVec3::X) * DMat4::from_scale(DVec3::splat(0.9));
     let ball = at(dvec3(1.2, 0.7, 0.6)) * DMat4::from_scale(DVec3::splat(0.7));
     scene(
         camera(dvec3(-3.5, 4.5, 6.0), dvec3(-0.2, 0.3, 0.3), 45.0),
-        spot(dvec3(4.0, 7.0, -3.0), DVec3::ZERO, 60.0, Beam::Circular),
+        light,
         vec![
             floor(10.0),
             object("ring", shapes::torus(0.35, 24), ring, ORANGE),
