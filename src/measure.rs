@@ -1,5 +1,7 @@
 //! A visibility picture against the truth: how many pixels are wrong, which way, and why they may be.
 
+mod nearest;
+
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -10,6 +12,7 @@ use serde_json::{Value, json};
 use crate::ground_truth::{Label, MapWidth, Ray, Rays, Truth};
 use crate::labs::MapScale;
 use crate::picture::Projection;
+use nearest::Clumps;
 
 /// A pixel counts as dark below this, of 255.
 const HALF: u8 = 128;
@@ -102,39 +105,7 @@ pub struct Measure<'a> {
     rays: &'a Rays,
     truth: &'a Truth,
     edge1: Vec<bool>,
-    clumps: Vec<Clump>,
-}
-
-/// Some triangles of one object, in a row, and a ball around them: what is farther than the nearest is passed over.
-struct Clump {
-    object: u32,
-    triangles: std::ops::Range<u32>,
-    centre: DVec3,
-    radius: f64,
-}
-
-/// The most triangles of a clump: the cost of finding the nearest triangle is flat around this.
-const CLUMP: usize = 64;
-
-fn clumps(rays: &Rays) -> Vec<Clump> {
-    let mut clumps = Vec::new();
-    let mut first = 0;
-    for of_object in rays.objects.chunk_by(|a, b| a == b) {
-        for part in of_object.chunks(CLUMP) {
-            let triangles = first..first + part.len() as u32;
-            first = triangles.end;
-            let corners = || triangles.clone().flat_map(|t| *rays.surfaces.triangle(t));
-            let centre = corners().sum::<DVec3>() / (3 * part.len()) as f64;
-            let radius = corners().map(|corner| corner.distance(centre));
-            clumps.push(Clump {
-                object: part[0],
-                radius: radius.fold(0.0, f64::max),
-                triangles,
-                centre,
-            });
-        }
-    }
-    clumps
+    clumps: Clumps,
 }
 
 impl<'a> Measure<'a> {
@@ -143,7 +114,7 @@ impl<'a> Measure<'a> {
             rays,
             truth,
             edge1: truth.edges(),
-            clumps: clumps(rays),
+            clumps: Clumps::new(rays),
         }
     }
 
@@ -377,15 +348,7 @@ impl<'a> Measure<'a> {
         let (triangle, point) = self.truth.seen[i]?;
         let caster = self.rays.nearest_blocker(triangle, point)?.triangle;
         let object = self.rays.objects[caster as usize];
-        let distance = |t: u32| distance_to_triangle(point, self.rays.surfaces.triangle(t));
-        let mut nearest = distance(caster);
-        for clump in self.clumps.iter().filter(|clump| clump.object == object) {
-            if point.distance(clump.centre) - clump.radius < nearest {
-                let others = clump.triangles.clone().filter(|t| *t != triangle);
-                nearest = others.map(distance).fold(nearest, f64::min);
-            }
-        }
-        Some(nearest)
+        Some(self.clumps.distance(point, triangle, object, self.rays))
     }
 
     fn picture(&self, verdicts: &[Verdict]) -> RgbImage {
@@ -417,27 +380,6 @@ fn along(axis: DVec3, point: DVec3, across: DVec3, normal: DVec3, map: &MapScale
     let path = (map.far - map.near) * axis;
     let on_plane = point + across + slide * axis;
     slide.is_finite().then(|| Ray::new(on_plane - path, path))
-}
-
-/// From a point to the nearest point of a triangle: Ericson, "Real-Time Collision Detection" (2005), section 5.1.5.
-fn distance_to_triangle(point: DVec3, [a, b, c]: &[DVec3; 3]) -> f64 {
-    let (ab, ac) = (*b - *a, *c - *a);
-    let normal = ab.cross(ac);
-    let to_segment = |from: DVec3, to: DVec3| {
-        let along = to - from;
-        let t = (point - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-        point.distance(from + t.clamp(0.0, 1.0) * along)
-    };
-    // Above the triangle: on the inner side of all three edges.
-    let inside = [(*a, *b), (*b, *c), (*c, *a)]
-        .iter()
-        .all(|(from, to)| (*to - *from).cross(point - *from).dot(normal) >= 0.0);
-    if inside && normal != DVec3::ZERO {
-        return (point - *a).dot(normal.normalize()).abs();
-    }
-    to_segment(*a, *b)
-        .min(to_segment(*b, *c))
-        .min(to_segment(*c, *a))
 }
 
 impl Figures {

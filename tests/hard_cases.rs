@@ -123,8 +123,8 @@ fn every_case_has_a_control_and_a_test_that_holds() {
         let tests = case.tests();
         let any = |is: fn(&Expected) -> bool| tests.iter().any(|(_, expected)| is(expected));
         let fails = any(|expected| {
-            use Expected::{FalseLight, FalseShadow, Unresolved};
-            matches!(expected, FalseShadow(_) | FalseLight(_) | Unresolved(_))
+            use Expected::{Exact, Holds, Shown};
+            !matches!(expected, Holds(..) | Exact | Shown)
         });
         let holds = any(|expected| matches!(expected, Expected::Holds(..) | Expected::Exact));
         assert!(fails, "{}: no control", case.name);
@@ -173,12 +173,14 @@ fn a_promise_can_be_broken() {
     edge.false_shadow.edge1 = 1;
     let mut dark = good.clone();
     dark.false_shadow.interior = 7;
+    dark.grey = 7;
     let mut bright = good.clone();
     bright.false_light.interior = 7;
     bright.false_light.edge_t = 7;
     for (expected, kept, broken) in [
         (Expected::FalseShadow(7), &dark, good),
         (Expected::FalseShadow(7), &dark, &bright),
+        (Expected::Grey(7), &dark, good),
         (Expected::FalseLight(7), &bright, &dark),
         (Expected::Unresolved(7), &bright, &dark),
         (Expected::Holds(0, 0), good, &dark),

@@ -9,6 +9,7 @@
 mod area;
 mod light;
 mod rays;
+mod view;
 
 use glam::{DVec2, DVec3, dvec2};
 use rayon::prelude::*;
@@ -16,8 +17,9 @@ use rayon::prelude::*;
 pub use area::{AreaLight, Penumbra};
 pub use light::{MapWidth, Source};
 pub use rays::{Hit, Ray, Surfaces};
+use view::View;
 
-use crate::scene::{Camera, Scene};
+use crate::scene::Scene;
 
 /// How far a pixel's sample point is moved to see whether its label hangs on it, in pixels: GL snaps vertices to a
 /// grid of this width.
@@ -263,42 +265,6 @@ impl Pixel {
             seen,
             rays,
         }
-    }
-}
-
-/// The camera's rays, from its fields; the eye is the origin.
-struct View {
-    forward: DVec3,
-    /// Half the picture's width and height at distance 1, as vectors.
-    right: DVec3,
-    up: DVec3,
-    camera: Camera,
-    near: f64,
-    far: f64,
-}
-
-impl View {
-    fn new(camera: &Camera) -> Self {
-        let forward = camera.look.normalize();
-        let right = forward.cross(camera.rup).normalize();
-        Self {
-            forward,
-            right,
-            up: right.cross(forward),
-            camera: *camera,
-            near: camera.near,
-            far: camera.far.unwrap_or(f64::INFINITY),
-        }
-    }
-
-    /// The ray through a place of the picture; its `t` is the depth along the look, as near and far measure it.
-    fn ray(&self, [width, height]: [u32; 2], place: DVec2) -> Ray {
-        let (width, height) = (f64::from(width), f64::from(height));
-        let aspect = width / height;
-        let slope = (self.camera.fov.horizontal(aspect).to_radians() / 2.0).tan();
-        let x = slope * (2.0 * place.x / width - 1.0);
-        let y = slope / aspect * (1.0 - 2.0 * place.y / height);
-        Ray::new(DVec3::ZERO, self.forward + x * self.right + y * self.up)
     }
 }
 

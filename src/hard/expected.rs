@@ -9,9 +9,11 @@ pub enum Expected {
     FalseShadow(usize),
     /// A control: so many dark pixels of the interior are lit, at least.
     FalseLight(usize),
+    /// A control: so many lit pixels of the interior are below 95 %, at least: half of the taps are in acne.
+    Grey(usize),
     /// A control: so many dark pixels are lit within a texel of a shadow's edge, at least: the map cannot resolve it.
     Unresolved(usize),
-    /// At most so many false pixels of the interior: shadow, light.
+    /// In the interior, at most so many lit pixels are below 95 %, and so many dark ones lit.
     Holds(usize, usize),
     /// No pixel is wrong but where the truth itself is ambiguous.
     Exact,
@@ -26,9 +28,10 @@ impl Expected {
         match *self {
             Self::FalseShadow(least) => shadow.interior >= least,
             Self::FalseLight(least) => light.interior >= least,
+            Self::Grey(least) => figures.grey >= least,
             Self::Unresolved(least) => light.edge_t >= least,
-            Self::Holds(most_shadow, most_light) => {
-                shadow.interior <= most_shadow && light.interior <= most_light
+            Self::Holds(most_grey, most_light) => {
+                figures.grey <= most_grey && light.interior <= most_light
             }
             Self::Exact => shadow.total() + light.total() == 0,
             Self::Shown => true,

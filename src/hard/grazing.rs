@@ -3,7 +3,7 @@
 use glam::{DVec3, dvec3};
 
 use super::Case;
-use super::Expected::{FalseShadow, Holds};
+use super::Expected::{FalseShadow, Grey, Holds};
 use super::build::{GREY, ORANGE, camera, floor, scene, solid, spot, sun};
 use crate::scene::{Beam, Object, Scene};
 
@@ -30,12 +30,13 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "grazing-85",
-        about: "at 85 degrees: a constant bias is just enough",
+        about: "at 85 degrees: a constant bias is just enough, and not for PCF",
         lab: "csci3260",
         scene: || poles(85.0),
         expected: &[
             ("stage=no_bias", FalseShadow(10_000)),
             ("stage=constant", Holds(0, 0)),
+            ("stage=pcf", Grey(10_000)),
         ],
     },
     Case {

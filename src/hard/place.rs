@@ -53,7 +53,7 @@ const fn in_spot(name: &'static str, about: &'static str, scene: fn() -> Scene) 
 const fn in_sun(name: &'static str, about: &'static str, scene: fn() -> Scene) -> Case {
     const EXPECTED: &[(&str, Expected)] = &[
         ("stage=no_bias", FalseShadow(5_000)),
-        ("stage=pcf", Holds(0, 0)),
+        ("stage=constant", Holds(0, 0)),
     ];
     Case {
         name,
