@@ -73,7 +73,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Four poles, each a twentieth as wide as the floor is far across in the picture.
+/// Four poles of five texels' width, each higher than the one before.
 fn row_of_poles(x: f64) -> impl Iterator<Item = Object> {
     let heights = [0.3, 0.6, 1.0, 1.5];
     heights.into_iter().zip(0..).map(move |(height, number)| {

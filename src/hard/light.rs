@@ -1,10 +1,12 @@
 //! Where the light stands, what its beam spans, and what its depths do.
 
-use glam::{DVec3, dvec3};
+use glam::{DMat4, DQuat, DVec3, dvec3};
 
 use super::Case;
 use super::Expected::{FalseLight, FalseShadow, Holds};
-use super::build::{GREY, ORANGE, at, camera, floor, object, point, scene, solid, soup, spot, sun};
+use super::build::{
+    GREY, ORANGE, at, camera, floor, object, point, scene, sheet, solid, soup, spot, sun,
+};
 use crate::scene::{Beam, Light, Object, Scene, shapes};
 
 pub const CASES: &[Case] = &[
@@ -116,7 +118,7 @@ pub const CASES: &[Case] = &[
 ];
 
 fn ball(place: DVec3, radius: f64) -> Object {
-    let scaled = glam::DMat4::from_scale(DVec3::splat(radius));
+    let scaled = DMat4::from_scale(DVec3::splat(radius));
     object("ball", shapes::sphere(24), at(place) * scaled, ORANGE)
 }
 
@@ -183,8 +185,8 @@ fn wide_beam(degrees: f64) -> Scene {
         },
         vec![
             floor(10.0),
-            object("sail", soup(&[sail]), glam::DMat4::IDENTITY, ORANGE),
-            object("across", soup(&[across]), glam::DMat4::IDENTITY, ORANGE),
+            object("sail", soup(&[sail]), DMat4::IDENTITY, ORANGE),
+            object("across", soup(&[across]), DMat4::IDENTITY, ORANGE),
             solid("pillar", dvec3(1.5, 0.0, 1.2), dvec3(1.9, 3.5, 1.6), ORANGE),
             solid(
                 "behind",
@@ -254,12 +256,12 @@ fn inside(near: f64) -> Scene {
 fn along_the_normal() -> Scene {
     // Normalised in f32, its product with itself is 1 + 2⁻²³.
     let towards = dvec3(2.0, 2.0, 1.0);
-    let turn = glam::DQuat::from_rotation_arc(DVec3::Z, towards.normalize());
+    let turn = DQuat::from_rotation_arc(DVec3::Z, towards.normalize());
     let board = |shift: f64, half: f64| {
         let placement = at(shift * towards.normalize())
-            * glam::DMat4::from_quat(turn)
-            * glam::DMat4::from_scale(dvec3(half, half, 1.0));
-        super::build::sheet("board", placement, if shift > 0.0 { ORANGE } else { GREY })
+            * DMat4::from_quat(turn)
+            * DMat4::from_scale(dvec3(half, half, 1.0));
+        sheet("board", placement, if shift > 0.0 { ORANGE } else { GREY })
     };
     scene(
         camera(dvec3(-2.0, 5.0, 8.0), DVec3::ZERO, 45.0),

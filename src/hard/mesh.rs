@@ -1,6 +1,6 @@
 //! Wires, bumps, and triangles that a careful modeller would not make.
 
-use glam::{DMat4, DVec2, DVec3, dvec3};
+use glam::{DMat4, DQuat, DVec2, DVec3, dvec3};
 
 use super::Case;
 use super::Expected::{FalseLight, FalseShadow, Holds, Unresolved};
@@ -10,7 +10,7 @@ use crate::scene::{Beam, Light, Mesh, Object, Scene, rotate, shapes};
 pub const CASES: &[Case] = &[
     Case {
         name: "wires",
-        about: "wires of half a texel, their shadows seen close up",
+        about: "two layers of wires of half a texel, their shadows seen close up",
         lab: "cs541",
         scene: wires,
         expected: &[
@@ -57,7 +57,7 @@ fn light() -> Light {
 /// A square bar between two points.
 fn wire(from: DVec3, to: DVec3, width: f64) -> Object {
     let along = to - from;
-    let turn = glam::DQuat::from_rotation_arc(DVec3::Y, along.normalize());
+    let turn = DQuat::from_rotation_arc(DVec3::Y, along.normalize());
     let placement = at((from + to) / 2.0)
         * DMat4::from_quat(turn)
         * DMat4::from_scale(dvec3(width, along.length(), width));
@@ -70,7 +70,8 @@ fn wires() -> Scene {
     let bars = (-4..=4).flat_map(|i| {
         let x = 0.04 * f64::from(i);
         let (low, high) = (dvec3(x, 0.03, -0.2), dvec3(x, 0.05, 0.2));
-        let across = |p: DVec3| dvec3(p.z, p.y, p.x);
+        // The others lie across, above them: none touches another.
+        let across = |p: DVec3| dvec3(p.z, p.y + 0.03, p.x);
         [
             wire(low, high, width),
             wire(across(low), across(high), width),
