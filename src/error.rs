@@ -24,6 +24,8 @@ pub enum Error {
     },
     /// The driver refused something, or there is no driver.
     Gl(String),
+    /// The user pressed Ctrl-C: exit code 130, as shells have it.
+    Interrupted(String),
 }
 
 impl Error {
@@ -83,10 +85,11 @@ impl Error {
         matches!(self, Self::File { cause, .. } if cause.kind() == std::io::ErrorKind::NotFound)
     }
 
-    /// 2 for a wrong command line, 1 for everything else.
+    /// 2 for a wrong command line, 130 for Ctrl-C, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
+            Self::Interrupted(_) => 130,
             _ => 1,
         }
     }
@@ -95,7 +98,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = match self {
-            Self::Usage(message) | Self::Gl(message) => message.clone(),
+            Self::Usage(message) | Self::Gl(message) | Self::Interrupted(message) => {
+                message.clone()
+            }
             Self::Input {
                 path,
                 line,

@@ -48,6 +48,10 @@ pub struct Headless {
     pub gl: glow::Context,
     /// `GL_RENDERER`, for the record in every picture.
     pub renderer: String,
+    /// `GL_VERSION`, in which drivers name themselves.
+    pub version: String,
+    /// Whether it draws on the CPU.
+    pub software: bool,
     #[cfg(target_os = "linux")]
     _egl: egl::Current,
 }
@@ -111,7 +115,7 @@ mod egl {
                     Err(_) => device.name().unwrap_or("unnamed").to_owned(),
                 },
                 version: opened
-                    .map(|headless| unsafe { headless.gl.get_parameter_string(glow::VERSION) })
+                    .map(|headless| headless.version)
                     .map_err(|error| error.to_string()),
             }
         };
@@ -185,12 +189,15 @@ mod egl {
                 }
             };
             check_limits(&gl, size)?;
-            let renderer = unsafe { gl.get_parameter_string(glow::RENDERER) };
+            let [renderer, version] = [glow::RENDERER, glow::VERSION]
+                .map(|name| unsafe { gl.get_parameter_string(name) });
             // The record begins with the lab's first call: these questions are none of its own.
             trace::take();
             Ok(Self {
                 gl,
                 renderer,
+                version,
+                software: is_software(device),
                 _egl: egl,
             })
         }

@@ -47,17 +47,41 @@ impl Progress {
             let bar: String = (0..BAR_WIDTH)
                 .map(|i| if i < filled { '#' } else { '.' })
                 .collect();
+            let rest = self.total.saturating_sub(done) as f64 / done as f64;
+            let left = time_left(self.start.elapsed().mul_f64(rest));
             // Where standard error cannot be written, there is nobody to tell.
-            let _ = write!(terminal, "\r{} [{bar}] {percent} %", self.what);
+            let _ = write!(
+                terminal,
+                "\r{} [{bar}] {percent} %, {left} left ",
+                self.what
+            );
             self.shown.store(true, Ordering::Relaxed);
         }
     }
+}
+
+/// Minutes and seconds.
+fn time_left(left: Duration) -> String {
+    let seconds = left.as_secs_f64().round() as u64;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
         if self.shown.load(Ordering::Relaxed) {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_minutes_and_seconds() {
+        for (seconds, told) in [(0.0, "0:00"), (0.6, "0:01"), (59.4, "0:59"), (61.0, "1:01")] {
+            assert_eq!(time_left(Duration::from_secs_f64(seconds)), told);
         }
     }
 }

@@ -11,6 +11,7 @@ mod overlay;
 mod read;
 mod shader;
 mod texture;
+mod timer;
 pub mod trace;
 mod uniform;
 
@@ -22,25 +23,33 @@ pub use overlay::{Area, Overlay};
 pub use read::{read_depths, read_float_in_bytes, read_grey, read_rgb};
 pub use shader::{Program, Shaders};
 pub use texture::{largest_texture, levels, solid_texture, texture};
+pub use timer::{finish, time_passes};
 pub use uniform::Value;
 
-/// Names the calls from here until the returned guard is dropped: a heading in the trace, and a debug group where
-/// the driver has them (so that RenderDoc and apitrace show the handout's passes too).
+/// Names the calls from here until the returned guard is dropped: a heading in the trace, a timer in the report, and a
+/// debug group where the driver has them (so that RenderDoc and apitrace show the handout's passes too).
 #[must_use]
 pub fn pass<'gl>(gl: &'gl glow::Context, name: &str) -> Pass<'gl> {
     trace::pass(name);
     if gl.supports_debug() {
         unsafe { gl.push_debug_group(glow::DEBUG_SOURCE_APPLICATION, 0, name) };
     }
-    Pass { gl }
+    Pass {
+        gl,
+        timed: timer::begin(gl, name),
+    }
 }
 
 pub struct Pass<'gl> {
     gl: &'gl glow::Context,
+    timed: Option<timer::Timed>,
 }
 
 impl Drop for Pass<'_> {
     fn drop(&mut self) {
+        if let Some(timed) = self.timed.take() {
+            timer::end(self.gl, timed);
+        }
         if self.gl.supports_debug() {
             unsafe { self.gl.pop_debug_group() };
         }

@@ -6,7 +6,7 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicPtr, Ordering};
 
 use super::args::*;
-use super::{Call, record};
+use super::{Call, record, watch};
 
 /// Makes, from the declarations below, [`FUNCTIONS`] and a shim for each of them. Where an argument's type does not
 /// say enough (how long is this array?), `= expression` says what the record shows.
@@ -26,13 +26,17 @@ macro_rules! traced {
                         type Function = unsafe extern "system" fn($($kind),*) $(-> $result)?;
                         unsafe {
                             let driver: Function = transmute(DRIVER.load(Ordering::Relaxed));
+                            let begun = watch::before_call();
                             // First the driver, so that what it answers can be recorded.
                             let result = driver($($arg),*);
-                            record(Call {
-                                name: stringify!($name),
-                                args: vec![$(shown!($arg $(= $shown)?)),*],
-                                result: returned!(result $(-> $result)?),
-                            });
+                            watch::after_call(begun);
+                            if watch::records() {
+                                record(Call {
+                                    name: stringify!($name),
+                                    args: vec![$(shown!($arg $(= $shown)?)),*],
+                                    result: returned!(result $(-> $result)?),
+                                });
+                            }
                             result
                         }
                     }

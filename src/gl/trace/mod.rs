@@ -28,12 +28,16 @@ use std::ffi::{CStr, c_void};
 
 mod args;
 mod functions;
+mod memory;
 mod names;
 mod text;
+mod watch;
 
 pub use args::{Arg, Names, Object, ObjectKind};
 pub use functions::{FORWARDED, FUNCTIONS};
+pub use memory::{Bytes, Memory};
 pub use text::to_c;
+pub use watch::{in_calls, unrecorded};
 
 /// One entry of the record.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +84,9 @@ pub fn take() -> Vec<Event> {
 
 /// Writes a heading over the calls that follow. Does nothing while nothing is being recorded.
 pub fn pass(name: &str) {
+    if !watch::records() {
+        return;
+    }
     with_recorder(|recorder| recorder.events.push(Event::Pass(name.to_owned())));
 }
 
