@@ -9,12 +9,13 @@
 //! | [`measure`] | a visibility picture against the truth, in figures |
 //! | [`hard`] | scenes on which shadow tests are known to break, and what must come of each test |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
+//! | [`report`] | speed against error: settings held against each other |
 //! | [`window`] | the desktop viewer |
 //! | [`picture`] | pictures and depth maps, written to files |
 //! | [`progress`] | how far a long task has come |
 //! | [`error`] | the one error type |
 //!
-//! Imports go downward only: `headless`, `window` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
+//! Imports go downward only: `headless`, `window`, `report` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
 pub mod error;
@@ -26,6 +27,7 @@ pub mod labs;
 pub mod measure;
 pub mod picture;
 pub mod progress;
+pub mod report;
 pub mod scene;
 pub mod window;
 

@@ -19,6 +19,10 @@ const HALF: u8 = 128;
 /// A lit pixel is called grey below this: half-dark acne that the threshold above would hide.
 const GREY: u8 = 242;
 
+/// The colours of the mistakes in a picture of them; what is right is grey.
+pub const FALSE_SHADOW: Rgb<u8> = Rgb([220, 30, 30]);
+pub const FALSE_LIGHT: Rgb<u8> = Rgb([40, 80, 230]);
+
 /// What kind of mistake a pixel is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Verdict {
@@ -355,13 +359,13 @@ impl<'a> Measure<'a> {
         let [width, height] = self.truth.size;
         RgbImage::from_fn(width, height, |x, y| {
             let i = (y * width + x) as usize;
-            Rgb(match (verdicts[i], self.truth.labels[i]) {
-                (Verdict::NotValid, _) => [255, 255, 255],
-                (Verdict::Right, Label::Shadowed) => [90, 90, 90],
-                (Verdict::Right, _) => [215, 215, 215],
-                (Verdict::FalseShadow(_), _) => [220, 30, 30],
-                (Verdict::FalseLight(_), _) => [40, 80, 230],
-            })
+            match (verdicts[i], self.truth.labels[i]) {
+                (Verdict::NotValid, _) => Rgb([255, 255, 255]),
+                (Verdict::Right, Label::Shadowed) => Rgb([90, 90, 90]),
+                (Verdict::Right, _) => Rgb([215, 215, 215]),
+                (Verdict::FalseShadow(_), _) => FALSE_SHADOW,
+                (Verdict::FalseLight(_), _) => FALSE_LIGHT,
+            }
         })
     }
 }

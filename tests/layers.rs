@@ -26,6 +26,7 @@ const ROOMS: &[Room] = &[
         imports: &[
             "headless",
             "window",
+            "report",
             "hard",
             "measure",
             "ground_truth",
@@ -50,6 +51,23 @@ const ROOMS: &[Room] = &[
         imports: &["labs", "gl", "scene", "picture", "error"],
         crates: &["glow", "glutin"],
         may_be_unsafe: true,
+    },
+    // Measures a lab in a context, whatever lab and context they are; makes no GL call of its own.
+    Room {
+        name: "report",
+        imports: &[
+            "headless",
+            "measure",
+            "ground_truth",
+            "labs",
+            "gl",
+            "scene",
+            "picture",
+            "progress",
+            "error",
+        ],
+        crates: &[],
+        may_be_unsafe: false,
     },
     // Scenes, and what is expected of figures; knows the labs by their names only.
     Room {

@@ -2,6 +2,7 @@
 
 mod gallery;
 mod measuring;
+mod report;
 mod screenshot;
 mod state;
 mod timings;
@@ -47,6 +48,8 @@ enum Command {
     Truth(measuring::TruthCommand),
     /// Hold the lab's shadows, or a visibility picture, against the truth
     Measure(measuring::MeasureCommand),
+    /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
+    Report(report::ReportCommand),
     /// List the labs with their keys and settings
     Labs,
     /// List the renderers that EGL offers
@@ -122,6 +125,7 @@ impl Cli {
             Command::Explain(options) => options.run(),
             Command::Truth(options) => options.run(),
             Command::Measure(options) => options.run(),
+            Command::Report(options) => options.run(),
             Command::Labs => print(&labs_text()),
             Command::Devices => print(&devices_text()?),
         }

@@ -74,6 +74,33 @@ pub struct Drawing {
     timings: bool,
 }
 
+impl Drawing {
+    /// One frame on that renderer.
+    pub fn on(device: &Choice) -> Self {
+        Self {
+            frames: 1,
+            device: device.clone(),
+            timings: false,
+        }
+    }
+}
+
+impl Changes {
+    /// Whether one of them has a meaning for one lab only.
+    pub fn are_of_one_lab(&self) -> bool {
+        self.scene.is_some() || self.glsl.is_some() || !self.set.is_empty() || !self.keys.is_empty()
+    }
+
+    /// Whether the setting of that name is given a value.
+    pub fn sets(&self, name: &str) -> bool {
+        let names = self
+            .set
+            .iter()
+            .filter_map(|assignment| assignment.split_once('='));
+        names.map(|(name, _)| name).any(|given| given == name)
+    }
+}
+
 /// A lab in a context, brought to the state that the options name, before its first frame.
 pub struct Running {
     // The lab's GL objects go before their context does.

@@ -43,6 +43,8 @@ pub struct Handout {
     pub settings: &'static [Setting],
     /// What the handout shows, in its order.
     pub stages: &'static [Stage],
+    /// What `shadowlab report` compares where the command line does not say.
+    pub comparisons: &'static [Comparison],
     /// How many lights have a shadow of their own.
     pub lights: usize,
     /// Makes the lab's own remedy against acne use this bias, in depth as the map stores it.
@@ -59,6 +61,16 @@ pub struct Stage {
     /// Options of `shadowlab screenshot`, with spaces between them.
     pub options: &'static str,
     pub caption: &'static str,
+}
+
+/// Settings to be held against each other, in one plot. The row that they are held against, the handout's, is that of
+/// `set` alone; it need not be listed.
+pub struct Comparison {
+    pub title: &'static str,
+    /// What all rows have in common, as `--set` writes it.
+    pub set: &'static [&'static str],
+    /// Groups of settings with several values, as `--sweep` writes them; a group has a row for each combination.
+    pub sweeps: &'static [&'static [&'static str]],
 }
 
 /// Set-up of a lab for a scene; a student's own shaders are in the folder, if one is given.

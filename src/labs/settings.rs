@@ -1,9 +1,11 @@
 //! A lab's settings: one table that drives `--set`, the list in `shadowlab labs`, and whatever else is configurable.
 
+use std::fmt;
+
 use crate::{Error, Result, error};
 
 /// A row of the table.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     pub name: &'static str,
     pub kind: Kind,
@@ -12,7 +14,7 @@ pub struct Setting {
 }
 
 /// What values a setting takes, and the default.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Number {
         default: f64,
@@ -85,8 +87,18 @@ enum Value {
     Switch(bool),
 }
 
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Choice(name) => f.write_str(name),
+            Self::Switch(on) => f.write_str(on_off(*on)),
+        }
+    }
+}
+
 /// The values of a lab's settings.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     table: &'static [Setting],
     values: Vec<Value>,
@@ -110,23 +122,39 @@ impl Settings {
         let (name, text) = assignment
             .split_once('=')
             .ok_or_else(|| Error::usage(format!("--set {assignment}: expected name=value")))?;
+        self.assign(name, text)
+            .map_err(|wrong| Error::usage(format!("--set {assignment}: {wrong}")))
+    }
+
+    /// The same of a name and a value; what is wrong is said without the option that asked for it.
+    pub fn assign(&mut self, name: &str, text: &str) -> std::result::Result<(), String> {
         let index = self.table.iter().position(|setting| setting.name == name);
         let index = index.ok_or_else(|| {
             let names: Vec<_> = self.table.iter().map(|setting| setting.name).collect();
             let hint = error::did_you_mean(name, names.iter().copied());
-            Error::usage(format!(
-                "--set {assignment}: unknown setting \"{name}\"{hint}: expected one of {}",
+            format!(
+                "unknown setting \"{name}\"{hint}: expected one of {}",
                 names.join(", ")
-            ))
+            )
         })?;
         let kind = &self.table[index].kind;
         self.values[index] = kind.parse(text).ok_or_else(|| {
-            Error::usage(format!(
-                "--set {assignment}: \"{text}\" is no value of {name}, expected {}",
+            format!(
+                "\"{text}\" is no value of {name}, expected {}",
                 kind.expected()
-            ))
+            )
         })?;
         Ok(())
+    }
+
+    /// The settings whose values differ from `others`, as `--set` would write them, in the table's order.
+    pub fn differences(&self, others: &Self) -> Vec<String> {
+        let values = self.values.iter().zip(&others.values);
+        let settings = self.table.iter().zip(values);
+        settings
+            .filter(|(_, (value, other))| value != other)
+            .map(|(setting, (value, _))| format!("{}={value}", setting.name))
+            .collect()
     }
 
     pub fn number(&self, name: &str) -> f64 {
@@ -184,6 +212,21 @@ mod tests {
         settings.set("filter=nearest").unwrap();
         assert_eq!(settings.choice("filter"), "nearest");
         assert_eq!(settings.number("map_size"), 1024.0);
+    }
+
+    #[test]
+    fn differences_are_told_as_they_are_set() {
+        let default = Settings::new(TABLE);
+        let mut settings = default.clone();
+        assert_eq!(settings.differences(&default), [""; 0]);
+        for assignment in ["filter=nearest", "map_size=512"] {
+            settings.set(assignment).unwrap();
+        }
+        assert_eq!(
+            settings.differences(&default),
+            ["map_size=512", "filter=nearest"]
+        );
+        assert_ne!(settings, default);
     }
 
     #[test]

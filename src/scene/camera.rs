@@ -5,7 +5,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     pub eye: DVec3,
     /// A direction, of any length.

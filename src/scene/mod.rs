@@ -77,7 +77,7 @@ impl Default for Material {
 }
 
 /// A light source with the camera that its shadow map is drawn from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     pub kind: LightKind,
     pub position: DVec3,

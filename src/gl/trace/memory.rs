@@ -116,8 +116,12 @@ impl Memory {
             }
             // Better no figure than one that leaves something out.
             (
-                "glTexImage1D" | "glTexImage3D" | "glTexImage2DMultisample" | "glCopyTexImage2D"
-                | "glGenerateMipmap" | "glRenderbufferStorageMultisample",
+                "glTexImage1D"
+                | "glTexImage3D"
+                | "glTexImage2DMultisample"
+                | "glCopyTexImage2D"
+                | "glGenerateMipmap"
+                | "glRenderbufferStorageMultisample",
                 _,
             ) => {
                 let expected = "expected glTexImage2D, glBufferData or glRenderbufferStorage";
@@ -227,8 +231,15 @@ mod tests {
         memory.note(&events).unwrap();
         let map = Object::new(ObjectKind::Texture, 2);
         assert_eq!(memory.bytes().textures, 20 + 512);
-        let attach = [general(0), general(0), Arg::Object(map.clone()), Arg::Int(0)];
-        memory.note(&[call("glFramebufferTexture", &attach)]).unwrap();
+        let attach = [
+            general(0),
+            general(0),
+            Arg::Object(map.clone()),
+            Arg::Int(0),
+        ];
+        memory
+            .note(&[call("glFramebufferTexture", &attach)])
+            .unwrap();
         let expected = Bytes {
             drawn_into: 512,
             textures: 20,

@@ -49,6 +49,7 @@ pub static HANDOUT: Handout = Handout {
     quit: None,
     settings: SETTINGS,
     stages: stages::STAGES,
+    comparisons: stages::COMPARISONS,
     lights: 1,
     set_bias: settings::set_bias,
     scene: scene::default_scene,

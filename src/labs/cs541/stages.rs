@@ -1,6 +1,6 @@
-//! The handout, section by section, in pictures.
+//! The handout, section by section, in pictures; and its remedies, side by side in figures.
 
-use crate::labs::Stage;
+use crate::labs::{Comparison, Stage};
 
 pub const STAGES: &[Stage] = &[
     Stage {
@@ -62,5 +62,28 @@ pub const STAGES: &[Stage] = &[
         name: "map-256",
         options: "--set map_size=256",
         caption: "A smaller depth texture: the shadows' edges show its texels.",
+    },
+];
+
+pub const COMPARISONS: &[Comparison] = &[
+    Comparison {
+        title: "a spot light",
+        set: &[],
+        sweeps: &[
+            &["remedy=epsilon,none,culling,both", "map_size=256..4096"],
+            &["remedy=culling", "second_plane=on"],
+            &["epsilon=0.0001,0.01"],
+            &["filter=nearest"],
+            &["depth_format=16,24,32F"],
+            &["shadows=off"],
+        ],
+    },
+    Comparison {
+        title: "a point light",
+        set: &["light=point"],
+        sweeps: &[
+            &["remedy=epsilon,culling", "map_size=512..4096"],
+            &["shadows=off"],
+        ],
     },
 ];

@@ -1,6 +1,6 @@
 //! The slides' stages in pictures.
 
-use crate::labs::Stage;
+use crate::labs::{Comparison, Stage};
 
 pub const STAGES: &[Stage] = &[
     Stage {
@@ -62,5 +62,32 @@ pub const STAGES: &[Stage] = &[
         name: "room-pcf",
         options: "--set scene=room --set stage=pcf",
         caption: "PCF: the mean of five tests.",
+    },
+];
+
+pub const COMPARISONS: &[Comparison] = &[
+    Comparison {
+        title: "the dolphin over the sea",
+        set: &[],
+        sweeps: &[
+            &[
+                "stage=constant,no_bias,slope,culling,pcf",
+                "map_size=512..4096",
+            ],
+            &["bias=0.0005,0.05"],
+            &["shadows=off"],
+        ],
+    },
+    Comparison {
+        title: "the room",
+        set: &["scene=room"],
+        sweeps: &[
+            &[
+                "stage=constant,no_bias,slope,culling,thick,pcf",
+                "map_size=512..4096",
+            ],
+            &["bias=0.0005,0.05"],
+            &["shadows=off"],
+        ],
     },
 ];

@@ -1,0 +1,172 @@
+//! `shadowlab report`: speed against error, as a page, CSV and JSON.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use clap::Args;
+use shadowlab::headless::Choice;
+use shadowlab::labs::{self, Handout, LABS, Settings};
+use shadowlab::progress::Progress;
+use shadowlab::report::{
+    Compared, LabReport, Machine, Plan, Report, Subject, Sweep, interrupted_early, measure, steps,
+};
+use shadowlab::{Error, Result};
+use signal_hook::consts::SIGINT;
+
+use super::print;
+use super::state::{Changes, Drawing, State};
+
+#[derive(Args)]
+pub struct ReportCommand {
+    /// The lab's name, as `shadowlab labs` lists it [default: every lab]
+    lab: Option<String>,
+    #[command(flatten)]
+    changes: Changes,
+    /// Give a setting several values, map_size=256..4096 or filter=linear,nearest; several sweeps are combined
+    /// [default: the lab's own comparisons]
+    #[arg(long = "sweep", value_name = "NAME=VALUES")]
+    sweeps: Vec<String>,
+    /// How many times each row is timed
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: u16,
+    /// Which renderer draws: auto, software, or part of a renderer's name
+    #[arg(long, value_name = "NAME", default_value = "auto")]
+    device: Choice,
+    /// The folder to write report.csv, report.json and index.html to
+    #[arg(short, long = "output", value_name = "DIR")]
+    output: PathBuf,
+}
+
+/// A lab and what is to be compared in it.
+struct Task {
+    handout: &'static Handout,
+    plans: Vec<Plan>,
+}
+
+impl ReportCommand {
+    pub fn run(self) -> Result<()> {
+        let tasks = self.tasks()?;
+        // Where a folder cannot be, a file should not be found out about after minutes.
+        std::fs::create_dir_all(&self.output)
+            .map_err(|cause| Error::writing(&self.output, cause))?;
+        let stop = raised_by_ctrl_c()?;
+        let rounds = usize::from(self.rounds);
+        let mut count = 0;
+        for task in &tasks {
+            let now = Settings::new(task.handout.settings);
+            for plan in &task.plans {
+                count += plan.settings(&now)?.len();
+            }
+        }
+        let progress = Progress::new("measuring", steps(count, rounds));
+
+        let mut labs = Vec::new();
+        let mut machine = None;
+        for task in tasks {
+            let (lab, seen) = self.measure(task, rounds, &progress, &stop)?;
+            machine.get_or_insert(seen);
+            labs.push(lab);
+        }
+        drop(progress);
+        let finished = |lab: &LabReport| {
+            let rows = lab.comparisons.iter().flat_map(|compared| &compared.rows);
+            rows.map(|row| row.times.len()).min().unwrap_or(0)
+        };
+        let interrupted = labs.iter().any(|lab| finished(lab) < rounds);
+        labs.retain(|lab| finished(lab) > 0);
+        let report = Report {
+            machine: machine.expect("a task is measured on a machine"),
+            labs,
+            interrupted: interrupted.then_some(rounds),
+        };
+        if report.labs.is_empty() {
+            return Err(interrupted_early());
+        }
+        let page = report.write(&self.output)?;
+        let text: String = report
+            .advice()
+            .iter()
+            .map(|line| format!("{line}\n"))
+            .collect();
+        print(&format!("{text}{}\n", page.display()))?;
+        if !interrupted {
+            return Ok(());
+        }
+        Err(Error::Interrupted(format!(
+            "interrupted: {} has the rounds that were finished of {rounds}",
+            page.display()
+        )))
+    }
+
+    fn tasks(&self) -> Result<Vec<Task>> {
+        let task = |handout: &'static Handout| {
+            let plans = Plan::of_lab(handout)?;
+            Ok(Task { handout, plans })
+        };
+        let Some(name) = &self.lab else {
+            if self.changes.are_of_one_lab() || !self.sweeps.is_empty() {
+                return Err(Error::usage(
+                    "report: expected a LAB in front of options that are about one lab",
+                ));
+            }
+            return LABS.iter().copied().map(task).collect();
+        };
+        let handout = labs::find(name)?;
+        if self.changes.sets("redraw") {
+            return Err(Error::usage(
+                "--set redraw: every row is measured with the shadow pass drawn and at rest",
+            ));
+        }
+        if self.sweeps.is_empty() {
+            return Ok(vec![task(handout)?]);
+        }
+        let sweeps = self.sweeps.iter();
+        let sweeps = sweeps.map(|text| Sweep::parse(text, handout.settings));
+        let plans = Plan::of_sweeps("the sweep", &sweeps.collect::<Result<Vec<_>>>()?)?;
+        Ok(vec![Task { handout, plans }])
+    }
+
+    /// Starts one lab and measures its plans.
+    fn measure(
+        &self,
+        Task { handout, plans }: Task,
+        rounds: usize,
+        progress: &Progress,
+        stop: &AtomicBool,
+    ) -> Result<(LabReport, Machine)> {
+        let state = State {
+            lab: handout.name.to_owned(),
+            changes: self.changes.clone(),
+        };
+        let mut running = state.start(&Drawing::on(&self.device), &[], true)?;
+        let mut subject = Subject {
+            handout,
+            lab: running.lab.as_mut(),
+            context: &running.context,
+            size: running.size,
+        };
+        let rows = measure(&mut subject, &plans, rounds, progress, stop)?;
+        let comparisons = plans.into_iter().zip(rows).map(|(plan, rows)| Compared {
+            title: plan.title,
+            set: plan.set,
+            rows,
+        });
+        let lab = LabReport {
+            handout,
+            size: running.size,
+            options: state.options(),
+            comparisons: comparisons.collect(),
+        };
+        Ok((lab, Machine::new(&running.context)))
+    }
+}
+
+/// A flag that the first Ctrl-C raises; the second one ends the program.
+fn raised_by_ctrl_c() -> Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let registered = signal_hook::flag::register_conditional_default(SIGINT, stop.clone())
+        .and_then(|_| signal_hook::flag::register(SIGINT, stop.clone()));
+    registered.map_err(|cause| Error::gl(format!("Ctrl-C cannot be watched: {cause}")))?;
+    Ok(stop)
+}

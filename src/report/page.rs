@@ -1,0 +1,280 @@
+//! The report as one page that needs no other file.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::run::Row;
+use super::statistics::Sample;
+use super::summary::{Summary, Timing};
+use super::{Compared, LabReport, Report, advice, plot, words};
+use crate::measure::{Figures, Wrong};
+
+const STYLE: &str = "
+    body { font: 16px/1.45 sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
+    .loud { background: #b00020; color: #fff; padding: 0.6rem 1rem; font-weight: bold; }
+    .advice { border-left: 4px solid #0072b2; padding-left: 0.8rem; max-width: 60rem; }
+    .plot svg { max-width: 100%; height: auto; }
+    .legend { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 0.2rem 1.4rem; font-size: 0.9rem; }
+    .legend b { display: inline-block; width: 0.8rem; height: 0.8rem; border-radius: 50%; margin-right: 0.4rem; }
+    .wide { overflow-x: auto; }
+    table { border-collapse: collapse; font-size: 0.8rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
+    th, td { border-bottom: 1px solid #ddd; padding: 0.15rem 0.5rem; text-align: right; }
+    th { border-bottom-color: #888; vertical-align: bottom; }
+    td.name { text-align: left; }
+    tr.chosen { background: #e3f0f8; }
+    tr.front td:first-child { font-weight: bold; }
+    section { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1rem; }
+    figure { margin: 0; font-size: 0.8rem; }
+    img { width: 100%; border: 1px solid #ccc; image-rendering: pixelated; }
+    code { font-size: 0.85rem; color: #555; }
+";
+
+pub fn page(report: &Report) -> Markup {
+    let machine = &report.machine;
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width";
+                title { "shadowlab: speed against error" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "Speed against error" }
+                @if machine.software {
+                    p.loud { "SOFTWARE RENDERER: these are the times of a CPU. A GPU has others, and other ratios." }
+                }
+                @if let Some(rounds) = report.interrupted {
+                    p.loud { "INTERRUPTED: of " (rounds) " rounds, only those that were finished." }
+                }
+                p {
+                    "Drawn by " b { (machine.renderer) } ", driver " b { (machine.driver) } ", on "
+                    b { (machine.cpu) } " (" (machine.threads) " threads, " (machine.system) ")."
+                }
+                (reading())
+                @for lab in &report.labs { (of_lab(lab)) }
+            }
+        }
+    }
+}
+
+/// How to read what follows.
+fn reading() -> Markup {
+    html! {
+        details {
+            summary { "What the figures mean" }
+            p {
+                "All rows of a lab are visited once in every round, in changing order. A ratio is that of a row's time to \
+                 the handout's row of the same round: the median over the rounds, and between which values the true median \
+                 lies with 95 % certainty, by order statistics. Times are wall time from an idle driver to an idle driver: \
+                 the median, and the 95th percentile behind it. " b { "moving" } ": light or casters move, so the shadow \
+                 pass is drawn. " b { "at rest" } ": the map of an earlier frame serves on. Shadow pass and lighting are \
+                 each waited for, so their sum may be more than the frame. " b { "outside GL" } " is the share of such a \
+                 frame in which the program was in no GL call, its clock counted in: an upper bound."
+            }
+            p {
+                b { "MiB" } ": storage that the driver was asked for, as drivers hold it (three channels in the room of \
+                 four); behind it, how much of that is drawn into: the shadow maps. Not counted: the window's own \
+                 framebuffer, programs, what a driver keeps beside."
+            }
+            p {
+                "Wrong pixels are counted against rays in f64. " b { "False shadow" } ": lit in truth, dark here. "
+                b { "False light" } ": the other way round. " b { "edge1" } ": within a pixel of a change in the truth; "
+                b { "edgeT" } ": within a texel of the map, which it cannot resolve; " b { "interior" } ": a fault of the \
+                 method. " b { "Grey" } ": lit in truth, below 95 % here, in the interior. " b { "Gap" } ": the strip of \
+                 light between a caster and its shadow, in world units. " b { "Ambiguous" } ": pixels whose truth hangs on \
+                 1/256 of a pixel, wrong of all: counted apart."
+            }
+        }
+    }
+}
+
+fn of_lab(lab: &LabReport) -> Markup {
+    let options = lab.options.join(" ");
+    html! {
+        h2 id=(lab.handout.name) { (lab.handout.title) }
+        p {
+            code { "shadowlab report " (lab.handout.name) " " (options) }
+            " at " (lab.size[0]) "×" (lab.size[1])
+        }
+        @for compared in &lab.comparisons { (of_comparison(compared)) }
+    }
+}
+
+fn of_comparison(compared: &Compared) -> Markup {
+    let summaries = Summary::of_rows(&compared.rows);
+    let rounds = compared.rows[0].times.len();
+    html! {
+        h3 { (compared.title) }
+        @if !compared.set.is_empty() { p { "All rows: " code { (compared.set.join(" ")) } } }
+        p.advice {
+            b { "Which setting do I choose for this scene, and what does it cost me? " }
+            (capitalised(&advice::sentence(compared, &summaries)))
+        }
+        div.plot { (PreEscaped(plot::svg(compared, &summaries))) }
+        ul.legend {
+            @for series in plot::series(compared, &summaries) {
+                li { b style=(swatch(series.color)) {} (series.name) }
+            }
+        }
+        p {
+            "Numbers are the table's rows. Filled: no wrong pixel in the interior; hollow: some. The grey stairs are the \
+             Pareto front, its rows have their names. The bar through a point is the 95 % interval of its cost. "
+            (rounds) " rounds."
+        }
+        (taken_apart(compared, &summaries))
+        div.wide { (table(compared, &summaries)) }
+        h4 { "Where they are wrong" }
+        p { "False shadow red, false light blue, shadow dark grey, light bright grey. A mistake of a single pixel is kept." }
+        section {
+            @for (i, row) in compared.rows.iter().enumerate() {
+                @for light in 0..row.figures.len() { (thumbnail(i, row, light)) }
+            }
+        }
+    }
+}
+
+fn swatch([red, green, blue]: [u8; 3]) -> String {
+    format!("background: rgb({red}, {green}, {blue})")
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// The handout's frame: the shadow pass, the look-ups (which a row with shadows=off does without), the rest of the
+/// shading, and what is not GL.
+fn taken_apart(compared: &Compared, summaries: &[Summary]) -> Markup {
+    let handouts = &summaries[0];
+    let off = compared
+        .rows
+        .iter()
+        .find(|row| row.differences == ["shadows=off"]);
+    let lookups = off.map(|off| {
+        let rounds = compared.rows[0].times.iter().zip(&off.times);
+        Sample::new(rounds.map(|(with, without)| with.lighting - without.lighting)).median()
+    });
+    html! {
+        p {
+            "The handout's frame, taken apart: shadow pass " (words::milliseconds(handouts.shadow_pass[0])) " ms, "
+            @match lookups {
+                Some(lookups) => {
+                    "look-ups " (words::milliseconds(lookups)) " ms, the rest of the shading "
+                    (words::milliseconds(handouts.lighting[0] - lookups)) " ms, "
+                }
+                None => { "lighting with its look-ups " (words::milliseconds(handouts.lighting[0])) " ms, " }
+            }
+            "outside of GL " (words::percent(handouts.outside_gl)) "."
+        }
+    }
+}
+
+fn table(compared: &Compared, summaries: &[Summary]) -> Markup {
+    let chosen = advice::choice(summaries);
+    html! {
+        table {
+            thead {
+                tr {
+                    th {} th {}
+                    th colspan="2" { "× the handout's (95 %)" }
+                    th colspan="4" { "ms (p95)" }
+                    th {} th { "GL calls" } th { "MiB" }
+                    th colspan="2" { "wrong pixels: all = edge1 + edgeT + interior" }
+                    th {} th {} th {}
+                }
+                tr {
+                    th { "#" } th { "settings" }
+                    th { "moving" } th { "at rest" }
+                    th { "moving" } th { "at rest" } th { "shadow pass" } th { "lighting" }
+                    th { "outside GL" } th { "moving, at rest" } th { "all (maps)" }
+                    th { "false shadow" } th { "false light" }
+                    th { "grey" } th { "gap" } th { "ambiguous" }
+                }
+            }
+            tbody {
+                @for (i, (row, summary)) in compared.rows.iter().zip(summaries).enumerate() {
+                    tr.chosen[i == chosen].front[summary.on_front] {
+                        td { (i + 1) } td.name { (words::name(row)) }
+                        @for timing in [&summary.frame, &summary.rest] { td { (ratio(timing)) } }
+                        @for Timing { ms, ms_95, .. } in [&summary.frame, &summary.rest] {
+                            td { (milliseconds([*ms, *ms_95])) }
+                        }
+                        td { (milliseconds(summary.shadow_pass)) } td { (milliseconds(summary.lighting)) }
+                        td { (words::percent(summary.outside_gl)) }
+                        td { (row.calls.frame) ", " (row.calls.rest) }
+                        td { (words::mebibytes(row.bytes.total())) " (" (words::mebibytes(row.bytes.drawn_into)) ")" }
+                        td { (of_lights(row, |figures| wrong(&figures.false_shadow))) }
+                        td { (of_lights(row, |figures| wrong(&figures.false_light))) }
+                        td { (of_lights(row, |figures| figures.grey.to_string())) }
+                        td { (of_lights(row, gap)) }
+                        td { (of_lights(row, ambiguous)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn ratio(timing: &Timing) -> String {
+    let ratio = words::ratio(timing.ratio);
+    match timing.ratio_95 {
+        Some(interval) => format!("{ratio} ({})", words::interval(Some(interval))),
+        None => ratio,
+    }
+}
+
+fn milliseconds([median, percentile_95]: [f64; 2]) -> String {
+    format!(
+        "{} ({})",
+        words::milliseconds(median),
+        words::milliseconds(percentile_95)
+    )
+}
+
+/// What is said of each light, one behind the other.
+fn of_lights(row: &Row, text: impl Fn(&Figures) -> String) -> String {
+    row.figures.iter().map(text).collect::<Vec<_>>().join(" | ")
+}
+
+fn wrong(wrong: &Wrong) -> String {
+    let Wrong {
+        edge1,
+        edge_t,
+        interior,
+        ..
+    } = wrong;
+    format!("{} = {edge1} + {edge_t} + {interior}", wrong.total())
+}
+
+fn gap(figures: &Figures) -> String {
+    figures
+        .contact_gap
+        .map_or("–".to_owned(), |gap| format!("{:.3}", gap.world))
+}
+
+fn ambiguous(figures: &Figures) -> String {
+    let wrong = figures.false_shadow.ambiguous + figures.false_light.ambiguous;
+    format!("{wrong} of {}", figures.ambiguous)
+}
+
+fn thumbnail(i: usize, row: &Row, light: usize) -> Markup {
+    let picture = format!(
+        "data:image/png;base64,{}",
+        STANDARD.encode(&row.thumbnails[light])
+    );
+    let figures = &row.figures[light];
+    html! {
+        figure {
+            img src=(picture) alt="the mistakes" loading="lazy";
+            figcaption {
+                b { (i + 1) } " " (words::name(row))
+                @if row.figures.len() > 1 { ", light " (light + 1) }
+                ": " (figures.false_shadow.total()) " falsely shadowed, " (figures.false_light.total()) " falsely lit"
+            }
+        }
+    }
+}
