@@ -306,6 +306,85 @@ const WRONG: &[(&str, i32, &[&str])] = &[
         &["lights=directional", "map of light 2", "lights=both"],
     ),
     ("trace cs541 -o trace.txt", 2, &["-o"]),
+    ("report cs541", 2, &["--output"]),
+    ("report cs542 -o r", 2, &["cs542", "did you mean \"cs541\""]),
+    (
+        "report --set epsilon=0 -o r",
+        2,
+        &["expected a LAB", "one lab"],
+    ),
+    ("report cs541 --rounds 0 -o r", 2, &["0", "1..=1000"]),
+    (
+        "report cs541 --sweep map_size -o r",
+        2,
+        &["--sweep map_size", "NAME=A..B", "NAME=VALUE,VALUE"],
+    ),
+    (
+        "report cs541 --sweep map_sise=256,512 -o r",
+        2,
+        &["--sweep map_sise", "did you mean \"map_size\""],
+    ),
+    (
+        "report cs541 --sweep map_size=100..512 -o r",
+        2,
+        &["\"100\"", "a whole number from 256 to 8192"],
+    ),
+    (
+        "report cs541 --sweep map_size=512..256 -o r",
+        2,
+        &["map_size=512..256", "B not below A"],
+    ),
+    (
+        "report cs541 --sweep epsilon=0..0.1 -o r",
+        2,
+        &["epsilon=0..0.1", "0 < A"],
+    ),
+    (
+        "report cs541 --sweep epsilon=NaN..0.1 -o r",
+        2,
+        &["epsilon=NaN..0.1", "0 < A"],
+    ),
+    (
+        "report cs541 --sweep filter=linear,,nearest -o r",
+        2,
+        &["\"\"", "linear | nearest"],
+    ),
+    (
+        "report cs541 --sweep remedy=epsilon..none -o r",
+        2,
+        &["epsilon..none", "epsilon | none | culling | both"],
+    ),
+    (
+        "report cs541 --sweep redraw=every_frame,when_changed -o r",
+        2,
+        &["redraw", "every row"],
+    ),
+    (
+        "report cs541 --set redraw=every_frame -o r",
+        2,
+        &["redraw", "every row"],
+    ),
+    (
+        "report cs541 --sweep filter=linear --sweep filter=nearest -o r",
+        2,
+        &["--sweep filter", "given twice", "one --sweep"],
+    ),
+    (
+        "report cs541 --sweep map_size=256..8192 --sweep epsilon=0.0001..0.1 --sweep remedy=none,both,culling,epsilon \
+         --sweep filter=linear,nearest -o r",
+        2,
+        &["too many rows", "at most 500"],
+    ),
+    (
+        "report cs541 -o broken/lighting.frag",
+        1,
+        &["broken/lighting.frag", "cannot write it"],
+    ),
+    (
+        "report cs541 --device Voodoo -o r",
+        2,
+        &["Voodoo", "auto, software"],
+    ),
     ("labs cs541", 2, &["cs541"]),
 ];
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use shadowlab::headless::Choice;
@@ -47,9 +47,19 @@ struct Task {
 impl ReportCommand {
     pub fn run(self) -> Result<()> {
         let tasks = self.tasks()?;
-        // Where a folder cannot be, a file should not be found out about after minutes.
+        // That there can be no such folder should not be found out after minutes.
+        let was_there = self.output.is_dir();
         std::fs::create_dir_all(&self.output)
             .map_err(|cause| Error::writing(&self.output, cause))?;
+        self.fill(tasks).inspect_err(|_| {
+            if !was_there {
+                // Where the rounds that were finished are in it, it stays.
+                let _ = std::fs::remove_dir(&self.output);
+            }
+        })
+    }
+
+    fn fill(&self, tasks: Vec<Task>) -> Result<()> {
         let stop = raised_by_ctrl_c()?;
         let rounds = usize::from(self.rounds);
         let mut count = 0;
@@ -61,11 +71,15 @@ impl ReportCommand {
         }
         let progress = Progress::new("measuring", steps(count, rounds));
 
+        let wanted = tasks.len();
         let mut labs = Vec::new();
         let mut machine = None;
         for task in tasks {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
             let (lab, seen) = self.measure(task, rounds, &progress, &stop)?;
-            machine.get_or_insert(seen);
+            machine = Some(seen);
             labs.push(lab);
         }
         drop(progress);
@@ -73,16 +87,17 @@ impl ReportCommand {
             let rows = lab.comparisons.iter().flat_map(|compared| &compared.rows);
             rows.map(|row| row.times.len()).min().unwrap_or(0)
         };
-        let interrupted = labs.iter().any(|lab| finished(lab) < rounds);
+        let complete = labs.iter().filter(|lab| finished(lab) == rounds).count();
+        let interrupted = complete < wanted;
         labs.retain(|lab| finished(lab) > 0);
+        let Some(machine) = machine.filter(|_| !labs.is_empty()) else {
+            return Err(interrupted_early());
+        };
         let report = Report {
-            machine: machine.expect("a task is measured on a machine"),
+            machine,
             labs,
             interrupted: interrupted.then_some(rounds),
         };
-        if report.labs.is_empty() {
-            return Err(interrupted_early());
-        }
         let page = report.write(&self.output)?;
         let text: String = report
             .advice()
@@ -155,10 +170,27 @@ impl ReportCommand {
         let lab = LabReport {
             handout,
             size: running.size,
-            options: state.options(),
+            options: self.options(&state),
             comparisons: comparisons.collect(),
         };
         Ok((lab, Machine::new(&running.context)))
+    }
+}
+
+impl ReportCommand {
+    /// What made the report another one than the default.
+    fn options(&self, state: &State) -> Vec<String> {
+        let mut options = state.options();
+        if !self.changes.keys.is_empty() {
+            options.extend(["--keys".to_owned(), self.changes.keys.clone()]);
+        }
+        if self.changes.time > 0.0 {
+            options.extend(["--time".to_owned(), self.changes.time.to_string()]);
+        }
+        for sweep in &self.sweeps {
+            options.extend(["--sweep".to_owned(), sweep.clone()]);
+        }
+        options
     }
 }
 

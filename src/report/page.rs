@@ -8,6 +8,7 @@ use super::run::Row;
 use super::statistics::Sample;
 use super::summary::{Summary, Timing};
 use super::{Compared, LabReport, Report, advice, plot, words};
+use crate::labs::Setting;
 use crate::measure::{Figures, Wrong};
 
 const STYLE: &str = "
@@ -99,11 +100,11 @@ fn of_lab(lab: &LabReport) -> Markup {
             code { "shadowlab report " (lab.handout.name) " " (options) }
             " at " (lab.size[0]) "×" (lab.size[1])
         }
-        @for compared in &lab.comparisons { (of_comparison(compared)) }
+        @for compared in &lab.comparisons { (of_comparison(lab.handout.settings, compared)) }
     }
 }
 
-fn of_comparison(compared: &Compared) -> Markup {
+fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
     let summaries = Summary::of_rows(&compared.rows);
     let rounds = compared.rows[0].times.len();
     html! {
@@ -113,19 +114,20 @@ fn of_comparison(compared: &Compared) -> Markup {
             b { "Which setting do I choose for this scene, and what does it cost me? " }
             (capitalised(&advice::sentence(compared, &summaries)))
         }
-        div.plot { (PreEscaped(plot::svg(compared, &summaries))) }
+        div.plot { (PreEscaped(plot::svg(table, compared, &summaries))) }
         ul.legend {
-            @for series in plot::series(compared, &summaries) {
+            @for series in plot::series(table, compared, &summaries) {
                 li { b style=(swatch(series.color)) {} (series.name) }
             }
         }
         p {
-            "Numbers are the table's rows. Filled: no wrong pixel in the interior; hollow: some. The grey stairs are the \
-             Pareto front, its rows have their names. The bar through a point is the 95 % interval of its cost. "
-            (rounds) " rounds."
+            "Numbers are the table's rows, as far as there is room. Filled: no wrong pixel in the interior; hollow: some. \
+             The bar through a point is the 95 % interval of its cost; " (rounds) " rounds. The grey stairs are the Pareto \
+             front: "
+            (front(compared, &summaries)) "."
         }
         (taken_apart(compared, &summaries))
-        div.wide { (table(compared, &summaries)) }
+        div.wide { (rows(compared, &summaries)) }
         h4 { "Where they are wrong" }
         p { "False shadow red, false light blue, shadow dark grey, light bright grey. A mistake of a single pixel is kept." }
         section {
@@ -134,6 +136,23 @@ fn of_comparison(compared: &Compared) -> Markup {
             }
         }
     }
+}
+
+/// The rows of the Pareto front, from the cheapest to the most exact.
+fn front(compared: &Compared, summaries: &[Summary]) -> String {
+    let mut rows: Vec<usize> = (0..summaries.len())
+        .filter(|i| summaries[*i].on_front)
+        .collect();
+    rows.sort_by(|a, b| {
+        summaries[*a]
+            .frame
+            .ratio
+            .total_cmp(&summaries[*b].frame.ratio)
+    });
+    let names = rows
+        .iter()
+        .map(|i| format!("{} {}", i + 1, words::name(&compared.rows[*i])));
+    names.collect::<Vec<_>>().join("; ")
 }
 
 fn swatch([red, green, blue]: [u8; 3]) -> String {
@@ -173,7 +192,7 @@ fn taken_apart(compared: &Compared, summaries: &[Summary]) -> Markup {
     }
 }
 
-fn table(compared: &Compared, summaries: &[Summary]) -> Markup {
+fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
     let chosen = advice::choice(summaries);
     html! {
         table {
@@ -181,18 +200,18 @@ fn table(compared: &Compared, summaries: &[Summary]) -> Markup {
                 tr {
                     th {} th {}
                     th colspan="2" { "× the handout's (95 %)" }
-                    th colspan="4" { "ms (p95)" }
-                    th {} th { "GL calls" } th { "MiB" }
                     th colspan="2" { "wrong pixels: all = edge1 + edgeT + interior" }
                     th {} th {} th {}
+                    th colspan="4" { "ms (p95)" }
+                    th {} th { "GL calls" } th { "MiB" }
                 }
                 tr {
                     th { "#" } th { "settings" }
                     th { "moving" } th { "at rest" }
-                    th { "moving" } th { "at rest" } th { "shadow pass" } th { "lighting" }
-                    th { "outside GL" } th { "moving, at rest" } th { "all (maps)" }
                     th { "false shadow" } th { "false light" }
                     th { "grey" } th { "gap" } th { "ambiguous" }
+                    th { "moving" } th { "at rest" } th { "shadow pass" } th { "lighting" }
+                    th { "outside GL" } th { "moving, at rest" } th { "all (maps)" }
                 }
             }
             tbody {
@@ -200,6 +219,11 @@ fn table(compared: &Compared, summaries: &[Summary]) -> Markup {
                     tr.chosen[i == chosen].front[summary.on_front] {
                         td { (i + 1) } td.name { (words::name(row)) }
                         @for timing in [&summary.frame, &summary.rest] { td { (ratio(timing)) } }
+                        td { (of_lights(row, |figures| wrong(&figures.false_shadow))) }
+                        td { (of_lights(row, |figures| wrong(&figures.false_light))) }
+                        td { (of_lights(row, |figures| figures.grey.to_string())) }
+                        td { (of_lights(row, gap)) }
+                        td { (of_lights(row, ambiguous)) }
                         @for Timing { ms, ms_95, .. } in [&summary.frame, &summary.rest] {
                             td { (milliseconds([*ms, *ms_95])) }
                         }
@@ -207,11 +231,6 @@ fn table(compared: &Compared, summaries: &[Summary]) -> Markup {
                         td { (words::percent(summary.outside_gl)) }
                         td { (row.calls.frame) ", " (row.calls.rest) }
                         td { (words::mebibytes(row.bytes.total())) " (" (words::mebibytes(row.bytes.drawn_into)) ")" }
-                        td { (of_lights(row, |figures| wrong(&figures.false_shadow))) }
-                        td { (of_lights(row, |figures| wrong(&figures.false_light))) }
-                        td { (of_lights(row, |figures| figures.grey.to_string())) }
-                        td { (of_lights(row, gap)) }
-                        td { (of_lights(row, ambiguous)) }
                     }
                 }
             }
@@ -269,7 +288,7 @@ fn thumbnail(i: usize, row: &Row, light: usize) -> Markup {
     let figures = &row.figures[light];
     html! {
         figure {
-            img src=(picture) alt="the mistakes" loading="lazy";
+            img src=(picture) alt="the mistakes";
             figcaption {
                 b { (i + 1) } " " (words::name(row))
                 @if row.figures.len() > 1 { ", light " (light + 1) }

@@ -5,8 +5,10 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Compared;
+use super::run::Row;
 use super::summary::Summary;
 use super::words;
+use crate::labs::{Kind, Setting};
 
 /// In the page's pixels.
 const SIZE: (u32, u32) = (860, 500);
@@ -25,43 +27,21 @@ const COLORS: [RGBColor; 7] = [
 /// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, and the axis says 0.
 const FLOOR: f64 = 0.5;
 
-/// The series that a row belongs to, by everything that it sets but numbers; those of one series are joined.
+/// Maps of several sizes are one method: their rows are joined, whatever else tells rows apart.
+const MAP_SIZE: &str = "map_size";
+
+/// Rows that are drawn in one colour, and joined.
 pub struct Series {
     pub name: String,
     pub color: [u8; 3],
-    /// In the order of their costs.
+    /// From the cheapest on.
     rows: Vec<usize>,
 }
 
-pub fn series(compared: &Compared, summaries: &[Summary]) -> Vec<Series> {
+pub fn series(table: &[Setting], compared: &Compared, summaries: &[Summary]) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
     for (i, row) in compared.rows.iter().enumerate() {
-        let is_number = |assignment: &&String| {
-            let value = assignment.split_once('=').map(|(_, value)| value);
-            value.is_some_and(|value| value.parse::<f64>().is_ok())
-        };
-        let choices: Vec<_> = row
-            .differences
-            .iter()
-            .filter(|text| !is_number(text))
-            .collect();
-        let numbers = row.differences.iter().filter(is_number);
-        let numbers: Vec<&str> = numbers.filter_map(|text| text.split('=').next()).collect();
-        let mut name = choices
-            .iter()
-            .map(|text| text.as_str())
-            .collect::<Vec<_>>()
-            .join(" ");
-        // A number that is swept apart from the map's size has a line of its own.
-        let other_numbers: Vec<_> = numbers.iter().filter(|name| **name != "map_size").collect();
-        for number in other_numbers {
-            name += &format!(" {number}");
-        }
-        let name = if name.is_empty() {
-            "the handout's".to_owned()
-        } else {
-            name.trim().to_owned()
-        };
+        let name = series_name(table, row);
         match series.iter_mut().find(|series| series.name == name) {
             Some(series) => series.rows.push(i),
             None => {
@@ -81,39 +61,69 @@ pub fn series(compared: &Compared, summaries: &[Summary]) -> Vec<Series> {
     series
 }
 
+/// What a row sets, of numbers only that they are set.
+fn series_name(table: &[Setting], row: &Row) -> String {
+    let is_number = |name: &str| {
+        let setting = table.iter().find(|setting| setting.name == name);
+        setting.is_some_and(|setting| matches!(setting.kind, Kind::Number { .. }))
+    };
+    let parts = row.differences.iter().filter_map(|assignment| {
+        let name = assignment.split('=').next()?;
+        match name {
+            MAP_SIZE => None,
+            name if is_number(name) => Some(name),
+            _ => Some(assignment.as_str()),
+        }
+    });
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() {
+        "the handout's settings".to_owned()
+    } else {
+        parts.join(" ")
+    }
+}
+
 /// The plot as SVG, to stand in a page.
-pub fn svg(compared: &Compared, summaries: &[Summary]) -> String {
+pub fn svg(table: &[Setting], compared: &Compared, summaries: &[Summary]) -> String {
     let mut svg = String::new();
     // Nothing that draws into memory can fail.
-    draw(compared, summaries, &mut svg).expect("a plot can be drawn into memory");
+    draw(table, compared, summaries, &mut svg).expect("a plot can be drawn into memory");
     svg
 }
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-fn draw(compared: &Compared, summaries: &[Summary], svg: &mut String) -> Drawn {
-    let place = |summary: &Summary| (summary.frame.ratio, (summary.wrong as f64).max(FLOOR));
+/// Where a row stands: its cost, and its wrong pixels.
+fn place(summary: &Summary) -> (f64, f64) {
+    (summary.frame.ratio, (summary.wrong as f64).max(FLOOR))
+}
+
+fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut String) -> Drawn {
     let ends = summaries
         .iter()
         .flat_map(|row| row.frame.ratio_95.unwrap_or([row.frame.ratio; 2]));
     let (low, high) = ends.fold((1.0_f64, 1.0_f64), |(low, high), x| {
         (low.min(x), high.max(x))
     });
-    let most = summaries
-        .iter()
-        .map(|row| place(row).1)
-        .fold(10.0, f64::max);
-    let x = 0.93 * low..1.12 * high;
-    let y = 0.7 * FLOOR..1.6 * most;
+    let heights = || summaries.iter().map(|row| place(row).1);
+    let least = heights().fold(f64::INFINITY, f64::min);
+    let most = heights().fold(10.0, f64::max);
+    // The axis begins with a power of ten, or with the place of 0.
+    let least = decades(least).last().copied().unwrap_or(FLOOR);
+    let (x, y) = (0.93 * low..1.08 * high, 0.8 * least..1.6 * most);
+    let y_ticks = [vec![FLOOR], decades(most)].concat();
+    let y_ticks = y_ticks
+        .into_iter()
+        .filter(|tick| y.contains(tick))
+        .collect();
 
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    let (x_ticks, y_ticks) = (ticks(&x), [vec![FLOOR], decades(most)].concat());
     let mut chart = ChartBuilder::on(&root)
         .margin(8)
         .x_label_area_size(44)
         .y_label_area_size(62)
         .build_cartesian_2d(
-            x.clone().log_scale().with_key_points(x_ticks),
+            x.clone().log_scale().with_key_points(ticks(&x)),
             y.clone().log_scale().with_key_points(y_ticks),
         )?;
     chart
@@ -133,72 +143,96 @@ fn draw(compared: &Compared, summaries: &[Summary], svg: &mut String) -> Drawn {
             words::milliseconds(summaries[0].frame.ms)
         ))
         .y_desc("wrong pixels")
-        .label_style(("sans-serif", 13))
-        .axis_desc_style(("sans-serif", 14))
+        .label_style(("sans-serif", 15))
+        .axis_desc_style(("sans-serif", 17))
         .draw()?;
 
     // The front: whatever lies to the right of and above it is beaten.
-    let mut front: Vec<(f64, f64)> = summaries
-        .iter()
-        .filter(|row| row.on_front)
-        .map(place)
-        .collect();
+    let on_front = summaries.iter().filter(|row| row.on_front);
+    let mut front: Vec<(f64, f64)> = on_front.map(place).collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut stairs: Vec<(f64, f64)> = front.iter().map(|first| (first.0, y.end)).take(1).collect();
+    let mut stairs = vec![(front[0].0, y.end)];
     for point in &front {
-        let height = stairs.last().map_or(y.end, |last| last.1);
+        let height = stairs[stairs.len() - 1].1;
         stairs.extend([(point.0, height), *point]);
     }
-    stairs.extend(front.last().map(|last| (x.end, last.1)));
-    chart.draw_series([PathElement::new(stairs, BLACK.mix(0.3).stroke_width(6))])?;
+    stairs.push((x.end, stairs[stairs.len() - 1].1));
+    chart.draw_series([PathElement::new(stairs, BLACK.mix(0.25).stroke_width(5))])?;
 
-    for series in series(compared, summaries) {
+    for series in series(table, compared, summaries) {
         let [red, green, blue] = series.color;
         let color = RGBColor(red, green, blue);
         let line: Vec<_> = series.rows.iter().map(|i| place(&summaries[*i])).collect();
         chart.draw_series([PathElement::new(line, color.mix(0.35))])?;
-        for i in series.rows {
-            let point = place(&summaries[i]);
-            if let Some([from, to]) = summaries[i].frame.ratio_95 {
+        for summary in series.rows.iter().map(|i| &summaries[*i]) {
+            let point = place(summary);
+            if let Some([from, to]) = summary.frame.ratio_95 {
                 let interval = vec![(from, point.1), (to, point.1)];
-                chart.draw_series([PathElement::new(interval, color.stroke_width(1))])?;
+                chart.draw_series([PathElement::new(interval, color.mix(0.5))])?;
             }
             // Hollow: wrong in the interior, too.
-            let inside = if summaries[i].interior == 0 {
-                color
-            } else {
-                WHITE
-            };
-            chart.draw_series([Circle::new(point, 5, inside.filled())])?;
-            chart.draw_series([Circle::new(point, 5, color.stroke_width(2))])?;
-            let right = point.0 > (x.start * x.end).sqrt();
-            let side = if right { HPos::Right } else { HPos::Left };
-            let style =
-                ("sans-serif", if summaries[i].on_front { 13 } else { 10 }).into_text_style(&root);
-            let style = style.color(&BLACK).pos(Pos::new(side, VPos::Bottom));
-            let label = if summaries[i].on_front {
-                format!("{} {}", i + 1, words::name(&compared.rows[i]))
-            } else {
-                (i + 1).to_string()
-            };
-            let beside = if right { -7 } else { 7 };
-            let label = EmptyElement::at(point) + Text::new(label, (beside, -4), style);
-            chart.draw_series([label])?;
+            let inside = if summary.interior == 0 { color } else { WHITE };
+            chart.draw_series([Circle::new(point, RADIUS, inside.filled())])?;
+            chart.draw_series([Circle::new(point, RADIUS, color.stroke_width(2))])?;
         }
     }
+
+    let points: Vec<_> = summaries
+        .iter()
+        .map(|row| chart.backend_coord(&place(row)))
+        .collect();
+    let style = ("sans-serif", 14).into_text_style(&root).color(&BLACK);
+    let style = style.pos(Pos::new(HPos::Center, VPos::Center));
+    for (label, at) in labels(&points, summaries) {
+        root.draw(&Text::new(label, at, style.clone()))?;
+    }
     root.present()?;
-    drop(chart);
-    drop(root);
     Ok(())
+}
+
+/// Of a point, in pixels.
+const RADIUS: i32 = 5;
+/// How far a number's middle is from its point, and half its width and height.
+const BESIDE: (i32, i32) = (13, 11);
+const HALF_LABEL: (i32, i32) = (8, 6);
+
+/// The rows' numbers and where to write them: beside each point, where neither point nor number is in the way yet. The
+/// front's come first; a number that finds no room is left out.
+fn labels(points: &[(i32, i32)], summaries: &[Summary]) -> Vec<(String, (i32, i32))> {
+    let mut rows: Vec<usize> = (0..points.len()).collect();
+    rows.sort_by_key(|i| !summaries[*i].on_front);
+    let mut labels: Vec<(String, (i32, i32))> = Vec::new();
+    for i in rows {
+        let (x, y) = points[i];
+        let around = [(1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (0, 1)];
+        let mut around = around
+            .map(|(right, down)| (x + BESIDE.0 * right, y + BESIDE.1 * down))
+            .into_iter();
+        let is_free = |at: &(i32, i32)| {
+            let apart = |other: &(i32, i32), by: (i32, i32)| {
+                (at.0 - other.0).abs() >= by.0 || (at.1 - other.1).abs() >= by.1
+            };
+            let from_point = (HALF_LABEL.0 + RADIUS, HALF_LABEL.1 + RADIUS);
+            let from_label = (2 * HALF_LABEL.0, 2 * HALF_LABEL.1);
+            points.iter().all(|point| apart(point, from_point))
+                && labels.iter().all(|(_, label)| apart(label, from_label))
+        };
+        if let Some(free) = around.find(is_free) {
+            labels.push(((i + 1).to_string(), free));
+        }
+    }
+    labels
 }
 
 /// Round numbers within a range, close enough for a reader to see the factors between them.
 fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
-    let narrow = range.end / range.start < 4.0;
-    let steps: &[f64] = if narrow {
+    let factor = range.end / range.start;
+    let steps: &[f64] = if factor < 4.0 {
         &[
             1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0,
         ]
+    } else if factor < 16.0 {
+        &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]
     } else {
         &[1.0, 2.0, 5.0]
     };
@@ -222,6 +256,8 @@ mod tests {
         assert_eq!(decades(10.0), [1.0, 10.0]);
         let wide = ticks(&(0.3..9.0));
         assert_eq!(wide.len(), 4, "{wide:?}");
+        let middle = ticks(&(0.4..2.9));
+        assert_eq!(middle.len(), 5, "{middle:?}");
         let narrow = ticks(&(0.95..1.25));
         assert_eq!(narrow.len(), 3, "{narrow:?}");
     }

@@ -72,6 +72,6 @@ mod tests {
         assert_eq!(one_to(6).interval_95(), Some([1.0, 6.0]));
         assert_eq!(one_to(10).interval_95(), Some([2.0, 9.0]));
         assert_eq!(one_to(30).interval_95(), Some([10.0, 21.0]));
-        assert_eq!(one_to(1000).interval_95(), Some([470.0, 531.0]));
+        assert_eq!(one_to(1000).interval_95(), Some([469.0, 532.0]));
     }
 }

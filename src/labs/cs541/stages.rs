@@ -70,7 +70,8 @@ pub const COMPARISONS: &[Comparison] = &[
         title: "a spot light",
         set: &[],
         sweeps: &[
-            &["remedy=epsilon,none,culling,both", "map_size=256..4096"],
+            &["remedy=epsilon,none,culling,both", "map_size=256..2048"],
+            &["map_size=4096"],
             &["remedy=culling", "second_plane=on"],
             &["epsilon=0.0001,0.01"],
             &["filter=nearest"],
@@ -82,7 +83,7 @@ pub const COMPARISONS: &[Comparison] = &[
         title: "a point light",
         set: &["light=point"],
         sweeps: &[
-            &["remedy=epsilon,culling", "map_size=512..4096"],
+            &["remedy=epsilon,culling", "map_size=512..2048"],
             &["shadows=off"],
         ],
     },

@@ -72,7 +72,7 @@ pub const COMPARISONS: &[Comparison] = &[
         sweeps: &[
             &[
                 "stage=constant,no_bias,slope,culling,pcf",
-                "map_size=512..4096",
+                "map_size=512..2048",
             ],
             &["bias=0.0005,0.05"],
             &["shadows=off"],
@@ -84,7 +84,7 @@ pub const COMPARISONS: &[Comparison] = &[
         sweeps: &[
             &[
                 "stage=constant,no_bias,slope,culling,thick,pcf",
-                "map_size=512..4096",
+                "map_size=512..2048",
             ],
             &["bias=0.0005,0.05"],
             &["shadows=off"],
