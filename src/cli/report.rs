@@ -9,7 +9,7 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, LABS, Settings};
 use shadowlab::progress::Progress;
 use shadowlab::report::{
-    Compared, LabReport, Machine, Plan, Report, Subject, Sweep, interrupted_early, measure, steps,
+    Compared, LabReport, Machine, Plan, Report, Subject, Sweep, measure, steps,
 };
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
@@ -91,7 +91,8 @@ impl ReportCommand {
         let interrupted = complete < wanted;
         labs.retain(|lab| finished(lab) > 0);
         let Some(machine) = machine.filter(|_| !labs.is_empty()) else {
-            return Err(interrupted_early());
+            let message = "interrupted before the first round: nothing is written";
+            return Err(Error::Interrupted(message.to_owned()));
         };
         let report = Report {
             machine,

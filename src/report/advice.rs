@@ -27,6 +27,22 @@ pub fn choice(summaries: &[Summary]) -> usize {
         .expect("the cheapest is as cheap as itself")
 }
 
+/// From the row that was chosen on, those as clean in the interior that buy fewer wrong pixels with more time.
+fn more_exact(summaries: &[Summary], chosen: usize) -> Vec<usize> {
+    let cost = |i: usize| summaries[i].frame.ratio;
+    let mut dearer: Vec<usize> = (0..summaries.len())
+        .filter(|i| summaries[*i].interior == summaries[chosen].interior && cost(*i) > cost(chosen))
+        .collect();
+    dearer.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+    let mut fewest = summaries[chosen].wrong;
+    dearer.retain(|i| {
+        let fewer = summaries[*i].wrong < fewest;
+        fewest = fewest.min(summaries[*i].wrong);
+        fewer
+    });
+    dearer
+}
+
 pub fn sentence(compared: &Compared, summaries: &[Summary]) -> String {
     let name = |i: usize| words::name(&compared.rows[i]);
     let chosen = choice(summaries);
@@ -59,17 +75,15 @@ pub fn sentence(compared: &Compared, summaries: &[Summary]) -> String {
             handouts.interior
         );
     }
-    let best = (0..summaries.len()).filter(|i| summaries[*i].on_front);
-    if let Some(best) = best.min_by_key(|i| summaries[*i].wrong)
-        && summaries[best].wrong < row.wrong
-    {
-        text += &format!(
-            " The fewest wrong pixels in all, {}, {} away from the edges, has {}, at {} ×.",
-            summaries[best].wrong,
-            summaries[best].interior,
-            name(best),
-            words::ratio(summaries[best].frame.ratio),
-        );
+    let others: Vec<String> = more_exact(summaries, chosen)
+        .into_iter()
+        .map(|i| {
+            let (ratio, wrong) = (words::ratio(summaries[i].frame.ratio), summaries[i].wrong);
+            format!("{} ({ratio} ×, {wrong} wrong)", name(i))
+        })
+        .collect();
+    if !others.is_empty() {
+        text += &format!(" More exact, for more time: {}.", others.join(", "));
     }
     text
 }
@@ -108,6 +122,7 @@ mod tests {
             row(1.2, [1.1, 1.3], 70, 0),
         ];
         assert_eq!(choice(&rows), 3);
+        assert_eq!(more_exact(&rows, 3), [2]);
         // The control: without the clean ones, the fewest errors.
         assert_eq!(choice(&rows[..2]), 1);
     }

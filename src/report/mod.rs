@@ -33,7 +33,7 @@ mod words;
 use std::path::{Path, PathBuf};
 
 pub use machine::Machine;
-pub use run::{Calls, Row, Subject, Times, interrupted_early, measure, steps};
+pub use run::{Calls, Row, Subject, Times, measure, steps};
 pub use sweep::{Plan, Sweep};
 
 use summary::Summary;

@@ -13,8 +13,9 @@ use crate::labs::{Kind, Setting};
 /// In the page's pixels.
 const SIZE: (u32, u32) = (860, 500);
 
-/// Told apart by the colour-blind, too: Okabe and Ito (2008), without their yellow, which white paper swallows.
-const COLORS: [RGBColor; 7] = [
+/// Told apart by the colour-blind, too: Okabe and Ito (2008), without their yellow, which white paper swallows; then a
+/// grey and a brown.
+const COLORS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -22,6 +23,8 @@ const COLORS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
     RGBColor(0, 0, 0),
+    RGBColor(140, 140, 140),
+    RGBColor(130, 70, 20),
 ];
 
 /// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, and the axis says 0.
@@ -121,7 +124,7 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
     let mut chart = ChartBuilder::on(&root)
         .margin(8)
         .x_label_area_size(44)
-        .y_label_area_size(62)
+        .y_label_area_size(78)
         .build_cartesian_2d(
             x.clone().log_scale().with_key_points(ticks(&x)),
             y.clone().log_scale().with_key_points(y_ticks),

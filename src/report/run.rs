@@ -7,6 +7,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use crate::Result;
 use crate::gl;
 use crate::gl::trace::{self, Bytes, Memory};
 use crate::headless::Headless;
@@ -16,7 +17,6 @@ use crate::progress::Progress;
 use crate::report::sweep::Plan;
 use crate::report::thumbnail;
 use crate::report::truths::Truths;
-use crate::{Error, Result};
 
 /// A lab that runs in a context whose calls are recorded.
 pub struct Subject<'a> {
@@ -230,7 +230,8 @@ fn visit(subject: &mut Subject, running: &Running) -> Result<Times> {
     let rests = |name: &String| running.rest_passes.contains(name);
     let sum = |at_rest: bool| {
         let chosen = passes.iter().filter(|(name, _)| rests(name) == at_rest);
-        chosen.map(|(_, milliseconds)| milliseconds).sum()
+        // Of no pass at all it is 0, where a sum of f64 is −0.
+        chosen.fold(0.0, |sum, (_, milliseconds)| sum + milliseconds)
     };
 
     lab.settings().set("redraw=when_changed")?;
@@ -250,11 +251,6 @@ fn timed(context: &Headless, lab: &mut dyn Lab) -> Result<f64> {
     lab.render(&context.gl, Show::Picture)?;
     gl::finish(&context.gl);
     Ok(1000.0 * begun.elapsed().as_secs_f64())
-}
-
-/// What is said when nothing was finished.
-pub fn interrupted_early() -> Error {
-    Error::Interrupted("interrupted before the first round: nothing is written".to_owned())
 }
 
 #[cfg(test)]
