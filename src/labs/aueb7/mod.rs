@@ -57,6 +57,7 @@ pub static HANDOUT: Handout = Handout {
     quit: None,
     settings: SETTINGS,
     stages: stages::STAGES,
+    comparisons: stages::COMPARISONS,
     lights: 1,
     set_bias: settings::set_bias,
     scene: || Ok(scenes::scene_graph_example_init()?.flattened(DMat4::IDENTITY, 0.0)),

@@ -1,6 +1,6 @@
 //! The handout's exercises in pictures.
 
-use crate::labs::Stage;
+use crate::labs::{Comparison, Stage};
 
 pub const STAGES: &[Stage] = &[
     Stage {
@@ -102,5 +102,35 @@ pub const STAGES: &[Stage] = &[
         name: "wireframe",
         options: "--keys <F1>",
         caption: "F1: wireframe, in the shadow map too.",
+    },
+];
+
+pub const COMPARISONS: &[Comparison] = &[
+    Comparison {
+        title: "the example: two spheres over a plane",
+        set: &[],
+        sweeps: &[
+            &["map_size=128..1024", "filter=none,pcf_5,pcf_9"],
+            &["map_size=512", "filter=pcf_9", "step=1,4"],
+            &["map_size=512", "constant_depth_bias=0,0.001"],
+            &["shadows=off"],
+        ],
+    },
+    Comparison {
+        title: "the pirate scene",
+        set: &["scene=pirate"],
+        sweeps: &[
+            &["map_size=128,512,1024", "filter=none,pcf_9"],
+            &["shadows=off"],
+        ],
+    },
+    Comparison {
+        title: "the palace",
+        set: &["scene=knossos"],
+        sweeps: &[
+            &["map_size=128,512,1024", "filter=none,pcf_9"],
+            &["map_size=1024", "constant_depth_bias=0,0.0001"],
+            &["shadows=off"],
+        ],
     },
 ];

@@ -56,6 +56,7 @@ pub static HANDOUT: Handout = Handout {
     quit: Some(Key::Char('q')),
     settings: SETTINGS,
     stages: stages::STAGES,
+    comparisons: stages::COMPARISONS,
     lights: 2,
     set_bias: settings::set_bias,
     scene: scene::the_box,

@@ -1,6 +1,6 @@
 //! The handout's points in pictures.
 
-use crate::labs::Stage;
+use crate::labs::{Comparison, Stage};
 
 pub const STAGES: &[Stage] = &[
     Stage {
@@ -57,5 +57,23 @@ pub const STAGES: &[Stage] = &[
         name: "no-balls",
         options: "--set balls=0",
         caption: "The box alone, after - has removed the last ball.",
+    },
+];
+
+pub const COMPARISONS: &[Comparison] = &[
+    Comparison {
+        title: "twenty balls, both lights",
+        set: &[],
+        sweeps: &[
+            &["map_size=256..4096"],
+            &["directional_bias=0", "spot_bias=0"],
+            &["directional_bias=0.01", "spot_bias=0.01"],
+            &["shadows=off"],
+        ],
+    },
+    Comparison {
+        title: "a hundred balls",
+        set: &["balls=100"],
+        sweeps: &[&["map_size=512..2048"], &["shadows=off"]],
     },
 ];
