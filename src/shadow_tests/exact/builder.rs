@@ -1,0 +1,230 @@
+//! From a light and what is in its scene to the light buffer: which triangles can cast onto something, and where.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3};
+use rayon::prelude::*;
+
+use super::caster::Caster;
+use super::grid::{Cell, Group, Layout, fill};
+use super::space::{LightSpace, Rays};
+use super::topology::{FaceEdge, Topology};
+use crate::scene::{Light, Mesh};
+
+/// How many triangles or points are worth a thread.
+const WORTH_A_THREAD: usize = 1024;
+
+/// A mesh in the scene. Its triangles are numbered as they are drawn.
+#[derive(Clone)]
+pub struct Placed {
+    pub mesh: Arc<Mesh>,
+    /// Object space to world space.
+    pub model: DMat4,
+    pub casts: bool,
+}
+
+impl PartialEq for Placed {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.mesh, &other.mesh)
+            && self.model == other.model
+            && self.casts == other.casts
+    }
+}
+
+/// The light buffer as the shader reads it.
+pub struct LightBuffer {
+    pub space: LightSpace,
+    pub layout: Layout,
+    pub cells: Vec<Cell>,
+    /// A bit for each triangle of the scene, whether it faces the light; then the cells' lists.
+    pub indices: Vec<u32>,
+    /// Four vectors for each caster: see [`caster_vectors`].
+    pub casters: Vec<[f32; 4]>,
+    /// The number of each mesh's first triangle.
+    pub first_triangles: Vec<u32>,
+    pub triangle_count: u32,
+}
+
+/// Builds light buffers; keeps what it has found out about each mesh.
+#[derive(Default)]
+pub struct Builder {
+    topologies: Vec<(Arc<Mesh>, Arc<Topology>)>,
+}
+
+impl Builder {
+    pub fn build(&mut self, light: &Light, scene: &[Placed]) -> LightBuffer {
+        let topologies: Vec<_> = scene.iter().map(|placed| self.topology(placed)).collect();
+        let boxes = scene.iter().zip(&topologies);
+        let corners: Vec<DVec3> = boxes
+            .flat_map(|(placed, topology)| box_corners(placed.model, topology.bounds))
+            .collect();
+        let space = LightSpace::new(light, &corners);
+        let mut found = Found {
+            rays: space.rays,
+            receivers: corners.iter().map(|p| space.from_world(*p)).collect(),
+            facing: Vec::new(),
+            casters: Vec::new(),
+            numbers: Vec::new(),
+            groups: Vec::new(),
+        };
+        let mut first_triangles = Vec::new();
+        let mut first = 0;
+        for (placed, topology) in scene.iter().zip(&topologies) {
+            first_triangles.push(first);
+            found.add(
+                space.from_object(placed.model),
+                topology,
+                placed.casts,
+                first,
+            );
+            first += topology.faces.len() as u32;
+        }
+
+        let layout = Layout::around(space.rays, &found.casters);
+        let (mut cells, lists) = fill(layout, &found.casters, &found.groups);
+        let mut indices = bits(&found.facing);
+        for cell in &mut cells {
+            cell.first += indices.len() as u32;
+        }
+        indices.extend(lists);
+        let casters = found.casters.iter().zip(&found.numbers);
+        LightBuffer {
+            space,
+            layout,
+            cells,
+            indices,
+            casters: casters
+                .flat_map(|(caster, number)| caster_vectors(space.rays, caster, *number))
+                .collect(),
+            first_triangles,
+            triangle_count: first,
+        }
+    }
+
+    fn topology(&mut self, placed: &Placed) -> Arc<Topology> {
+        let known = self.topologies.iter();
+        let mut known = known.filter(|(mesh, _)| Arc::ptr_eq(mesh, &placed.mesh));
+        if let Some((_, topology)) = known.next() {
+            return topology.clone();
+        }
+        let topology = Arc::new(Topology::new(&placed.mesh));
+        self.topologies
+            .push((placed.mesh.clone(), topology.clone()));
+        topology
+    }
+}
+
+/// What the scene's triangles are to the light.
+struct Found {
+    rays: Rays,
+    /// The corners of the boxes around everything that shadows can fall on.
+    receivers: Vec<DVec3>,
+    facing: Vec<bool>,
+    casters: Vec<Caster>,
+    /// The number of each caster in the scene.
+    numbers: Vec<u32>,
+    groups: Vec<Group>,
+}
+
+impl Found {
+    fn add(&mut self, to_light: DMat4, topology: &Topology, casts: bool, first: u32) {
+        let points = topology.points.par_iter().with_min_len(WORTH_A_THREAD);
+        let points: Vec<DVec3> = points.map(|p| to_light.transform_point3(*p)).collect();
+        let faces = topology.faces.par_iter().zip(&topology.closed);
+        let faces: Vec<Option<Caster>> = faces
+            .with_min_len(WORTH_A_THREAD)
+            .map(|(face, closed)| Caster::new(self.rays, face.map(|i| points[i as usize]), *closed))
+            .collect();
+        let faces_light = |caster: &Option<Caster>| caster.is_some_and(|c| c.faces_light);
+        self.facing.extend(faces.iter().map(faces_light));
+        if !casts {
+            return;
+        }
+
+        // Between its two ends a ray that meets a closed surface leaves it again, through a face that faces away from
+        // the light. Of an open surface every face casts, whichever way it is turned.
+        let wanted = [false, true].map(|facing| {
+            let is_needed = |(caster, closed): (&Option<Caster>, &bool)| {
+                caster.is_some_and(|caster| {
+                    caster.faces_light == facing
+                        && !(*closed && facing)
+                        && self.casts_on_something(&caster)
+                })
+            };
+            let faces = faces.par_iter().zip(&topology.closed);
+            let wanted: Vec<bool> = faces.with_min_len(WORTH_A_THREAD).map(is_needed).collect();
+            wanted
+        });
+        let mut uses = vec![0; topology.edges.len()];
+        for component in &topology.components {
+            for wanted in &wanted {
+                let start = self.casters.len() as u32;
+                let chosen = component.iter().filter(|face| wanted[**face as usize]);
+                for face in chosen.clone() {
+                    let face = *face as usize;
+                    self.casters.push(faces[face].expect("it is wanted"));
+                    self.numbers.push(first + face as u32);
+                    for FaceEdge { edge, direction } in topology.face_edges[face] {
+                        uses[edge as usize] += direction;
+                    }
+                }
+                let mut boundary = Vec::new();
+                for face_edge in chosen.flat_map(|face| topology.face_edges[*face as usize]) {
+                    let edge = face_edge.edge as usize;
+                    if std::mem::take(&mut uses[edge]) != 0 {
+                        boundary.push(topology.edges[edge].map(|i| points[i as usize]));
+                    }
+                }
+                let end = self.casters.len() as u32;
+                if start < end {
+                    self.groups.push(Group {
+                        casters: start..end,
+                        boundary,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Whether anything of the scene can be behind a triangle: a floor under everything casts on nothing.
+    fn casts_on_something(&self, caster: &Caster) -> bool {
+        let mut receivers = self.receivers.iter();
+        receivers.any(|point| caster.is_before(self.rays, *point))
+    }
+}
+
+/// The corners of a box in object space, in world space.
+fn box_corners(model: DMat4, [least, most]: [DVec3; 2]) -> Vec<DVec3> {
+    // A mesh without vertices has none.
+    if !least.is_finite() {
+        return Vec::new();
+    }
+    let corner = |i: u32| {
+        let pick = |axis: u32| [least, most][(i >> axis & 1) as usize][axis as usize];
+        model.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
+    };
+    (0..8).map(corner).collect()
+}
+
+fn bits(flags: &[bool]) -> Vec<u32> {
+    let word = |flags: &[bool]| {
+        let bits = flags.iter().zip(0..);
+        bits.fold(0, |word, (flag, bit)| word | u32::from(*flag) << bit)
+    };
+    flags.chunks(32).map(word).collect()
+}
+
+/// Plane and number, then the planes of the three edges.
+fn caster_vectors(rays: Rays, caster: &Caster, number: u32) -> [[f32; 4]; 4] {
+    let vector = |v: DVec3, w: f32| {
+        let [x, y, z] = v.as_vec3().to_array();
+        [x, y, z, w]
+    };
+    let [ab, bc, ca] = caster.edges.map(|edge| vector(edge, 0.0));
+    [
+        vector(caster.shifted_plane(rays), number as f32),
+        ab,
+        bc,
+        ca,
+    ]
+}

@@ -1,0 +1,160 @@
+//! The light buffer against the truth, without a GPU: the shader's steps in f32, at every point that the truth has seen.
+//! Beside the labels, the number of triangles that a point is tested against is checked: a builder that keeps the wrong
+//! side of a solid may still be right everywhere, and is slow.
+
+mod hard;
+
+use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+use hard::{Case, cases};
+use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
+use shadowlab::scene::Scene;
+use shadowlab::shadow_tests::exact::{Builder, LightBuffer, Placed, Rays};
+
+const SIZE: [u32; 2] = [320, 240];
+
+fn light_buffer(scene: &Scene) -> LightBuffer {
+    let objects = scene.objects.iter();
+    let placed: Vec<Placed> = objects
+        .map(|object| Placed {
+            mesh: object.mesh.clone(),
+            model: object.model(0.0),
+            casts: object.casts,
+        })
+        .collect();
+    Builder::default().build(&scene.lights[0], &placed)
+}
+
+/// Whether a point of a triangle is in shadow, and how many triangles were asked: `exact.frag`, line by line.
+fn test(light_buffer: &LightBuffer, position_lcs: Vec3, triangle: u32) -> (bool, usize) {
+    let rays = light_buffer.space.rays;
+    let (face, place, nearness, ray, reach) = match rays {
+        Rays::Parallel => {
+            let ray = position_lcs.xy().extend(-1.0);
+            (0, position_lcs.xy(), position_lcs.z, ray, position_lcs.z)
+        }
+        Rays::Spot | Rays::Point => {
+            let size = position_lcs.abs();
+            let axis = match rays {
+                Rays::Point if size.x.max(size.y) > size.z => usize::from(size.x <= size.y),
+                _ => 2,
+            };
+            let turned = match axis {
+                0 => position_lcs.yzx(),
+                1 => position_lcs.zxy(),
+                _ => position_lcs,
+            };
+            let face = match rays {
+                Rays::Point => 2 * axis + usize::from(turned.z < 0.0),
+                _ => 0,
+            };
+            let nearness = 1.0 / turned.z.abs();
+            (face, turned.xy() * nearness, nearness, position_lcs, 1.0)
+        }
+    };
+    let facing = light_buffer.indices[triangle as usize >> 5] >> (triangle & 31);
+    if facing & 1 == 0 {
+        return (true, 0);
+    }
+    let layout = light_buffer.layout;
+    let within = (place - layout.least.as_vec2()) * layout.scale.as_vec2();
+    let side = layout.side as f32;
+    if within.cmplt(Vec2::ZERO).any() || within.cmpgt(Vec2::splat(side)).any() {
+        return (false, 0);
+    }
+    let [column, row] = within
+        .to_array()
+        .map(|place| (place as usize).min(layout.side as usize - 1));
+    let cell =
+        light_buffer.cells[(face * layout.side as usize + row) * layout.side as usize + column];
+    if nearness > cell.lit_above {
+        return (false, 0);
+    }
+    if nearness < cell.dark_below {
+        return (true, 0);
+    }
+    let list = cell.first as usize..(cell.first + cell.count) as usize;
+    for (tests, index) in (1..).zip(list) {
+        let caster = 4 * light_buffer.indices[index] as usize;
+        let vector = |i: usize| Vec4::from_array(light_buffer.casters[caster + i]);
+        let inside = |i: usize| vector(i).xyz().dot(ray) >= 0.0;
+        if vector(0).xyz().dot(ray) > reach
+            && vector(0).w as u32 != triangle
+            && inside(1)
+            && inside(2)
+            && inside(3)
+        {
+            return (true, tests);
+        }
+    }
+    (false, cell.count as usize)
+}
+
+/// How a light buffer does on a scene.
+#[derive(Debug, Default)]
+struct Score {
+    valid: usize,
+    shadowed: usize,
+    ambiguous: usize,
+    false_shadow: usize,
+    false_light: usize,
+    /// For each valid pixel.
+    tests: f64,
+}
+
+fn score(scene: &Scene, truth: &Truth, light_buffer: &LightBuffer) -> Score {
+    let mut score = Score::default();
+    let eye = scene.camera.eye;
+    for (i, seen) in truth.seen.iter().enumerate() {
+        let Some((triangle, point)) = seen else {
+            continue;
+        };
+        if truth.labels[i] == Label::NotValid {
+            continue;
+        }
+        score.valid += 1;
+        score.ambiguous += usize::from(truth.ambiguous[i]);
+        let position_lcs = light_buffer.space.from_world(*point + eye).as_vec3();
+        let (shadowed, tests) = test(light_buffer, position_lcs, *triangle);
+        score.tests += tests as f64;
+        let expected = truth.labels[i] == Label::Shadowed;
+        score.shadowed += usize::from(expected);
+        if !truth.ambiguous[i] {
+            score.false_shadow += usize::from(shadowed && !expected);
+            score.false_light += usize::from(!shadowed && expected);
+        }
+    }
+    score.tests /= score.valid as f64;
+    score
+}
+
+#[test]
+fn no_pixel_is_wrong_and_few_triangles_are_asked() {
+    let mut failures = Vec::new();
+    for Case {
+        name,
+        scene,
+        most_tests,
+    } in cases()
+    {
+        let truth = TruthRays::new(&scene, 0).truth(SIZE);
+        let start = std::time::Instant::now();
+        let light_buffer = light_buffer(&scene);
+        let ms = 1e3 * start.elapsed().as_secs_f64();
+        let score = score(&scene, &truth, &light_buffer);
+        println!(
+            "{name:30} {:7} valid {:6} dark {:4} ambiguous, wrong {} {}, tests {:.3}, casters {}, indices {}, {ms:.1} ms",
+            score.valid,
+            score.shadowed,
+            score.ambiguous,
+            score.false_shadow,
+            score.false_light,
+            score.tests,
+            light_buffer.casters.len() / 4,
+            light_buffer.indices.len(),
+        );
+        if score.false_shadow + score.false_light > 0 || score.tests > most_tests {
+            failures.push(format!("{name}: {score:?}"));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
