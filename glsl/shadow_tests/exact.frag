@@ -5,52 +5,48 @@
 // For each cell: nearer than .x all is lit, farther than .y all is dark (both as nearness, in the bits of a float); its
 // list of casters begins at .z and has .w entries.
 uniform usamplerBuffer light_buffer_cells;
-// First a bit for each triangle, whether it faces the light; then the lists.
-uniform usamplerBuffer light_buffer_indices;
-// For each caster four vectors: its plane, and the planes through the light and each of its edges. With the first one
-// comes the caster's own number.
-uniform samplerBuffer light_buffer_triangles;
+uniform usamplerBuffer light_buffer_lists;
+// For each caster four planes as a ray is tested against them: its own, and those through the light and each of its
+// edges. With the first one comes the triangle's number, from 1, negative where it faces away from the light.
+uniform samplerBuffer light_buffer_casters;
 // What the cells lie over: its corner, and how many cells there are to a unit, across and up.
 uniform vec4 light_buffer_rectangle;
 // Cells on each side.
 uniform int light_buffer_side;
 
-bool is_on_inner_side(int place, vec3 ray)
-{
-    return dot(texelFetch(light_buffer_triangles, place).xyz, ray) >= 0;
-}
-
-// `ray` leads from the light through the point; on a caster's plane its product with the plane is `reach`.
+// `ray` leads from the light through the point; on a caster's plane its product with the plane is `reach`. Nearness is
+// 1/depth or, where rays are parallel, z.
 bool is_in_shadow(int face, vec2 place, float nearness, vec3 ray, float reach, int triangle)
 {
-    // A surface that faces away from the light is in its own shadow, however its normals are smoothed.
-    uint facing = texelFetch(light_buffer_indices, triangle >> 5).x >> (triangle & 31);
-    if ((facing & 1u) == 0u)
-        return true;
-
-    // Where there is no cell there is no caster.
     vec2 within = (place - light_buffer_rectangle.xy) * light_buffer_rectangle.zw;
-    if (any(lessThan(within, vec2(0))) || any(greaterThan(within, vec2(light_buffer_side))))
-        return false;
-    ivec2 column_and_row = min(ivec2(within), light_buffer_side - 1);
+    // Where there is no cell there is no caster.
+    bool outside = any(lessThan(within, vec2(0))) || any(greaterThan(within, vec2(light_buffer_side)));
+    ivec2 column_and_row = clamp(ivec2(within), 0, light_buffer_side - 1);
     int cell = (face * light_buffer_side + column_and_row.y) * light_buffer_side + column_and_row.x;
 
     uvec4 content = texelFetch(light_buffer_cells, cell);
-    if (nearness > uintBitsToFloat(content.x))
-        return false;
-    if (nearness < uintBitsToFloat(content.y))
-        return true;
-    int first = int(content.z), end = first + int(content.w);
-    for (int i = first; i < end; i++) {
-        int caster = 4 * int(texelFetch(light_buffer_indices, i).x);
-        vec4 plane = texelFetch(light_buffer_triangles, caster);
-        if (dot(plane.xyz, ray) > reach && int(plane.w) != triangle
-            && is_on_inner_side(caster + 1, ray)
-            && is_on_inner_side(caster + 2, ray)
-            && is_on_inner_side(caster + 3, ray))
-            return true;
+    bool lit = outside || nearness > uintBitsToFloat(content.x);
+    bool dark = !lit && nearness < uintBitsToFloat(content.y);
+
+    // One plane in each round, and not one caster: pixels that are drawn together wait for each other, and most of them
+    // need no round at all.
+    int entry = int(content.z);
+    int end = lit || dark ? entry : entry + int(content.w);
+    int step = 0;
+    while (entry < end) {
+        int caster = int(texelFetch(light_buffer_lists, entry).x);
+        vec4 plane = texelFetch(light_buffer_casters, 4*caster + step);
+        float product = dot(plane.xyz, ray);
+        bool passed = step == 0 ? product > reach : product >= 0;
+        // A point is not behind its own triangle; but if that faces away, it is in its own shadow, however its normals
+        // are smoothed.
+        int number = int(plane.w);
+        bool own = abs(number) == triangle + 1;
+        dark = own ? number < 0 : passed && step == 3;
+        step = passed && !own ? step + 1 : 0;
+        entry = dark ? end : step > 0 ? entry : entry + 1;
     }
-    return false;
+    return dark;
 }
 
 // A light that shines from the origin: in a beam along -z, or in all directions, with six faces of cells around it.

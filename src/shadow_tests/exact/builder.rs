@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::caster::Caster;
-use super::grid::{Cell, Group, Layout, fill};
+use super::grid::{Cell, Filling, Group, Layout};
 use super::space::{LightSpace, Rays};
 use super::topology::{FaceEdge, Topology};
 use crate::scene::{Light, Mesh};
@@ -36,69 +36,78 @@ pub struct LightBuffer {
     pub space: LightSpace,
     pub layout: Layout,
     pub cells: Vec<Cell>,
-    /// A bit for each triangle of the scene, whether it faces the light; then the cells' lists.
-    pub indices: Vec<u32>,
-    /// Four vectors for each caster: see [`caster_vectors`].
+    /// The cells' lists, one behind the other.
+    pub lists: Vec<u32>,
+    /// Four vectors for each caster: its plane with its number, from 1 and negative where it faces away from the light,
+    /// and the planes of its edges.
     pub casters: Vec<[f32; 4]>,
     /// The number of each mesh's first triangle.
     pub first_triangles: Vec<u32>,
     pub triangle_count: u32,
 }
 
-/// Builds light buffers; keeps what it has found out about each mesh.
+/// Builds light buffers. It keeps what it has found out about each mesh, and its memory: to ask for some megabytes takes
+/// as long as to fill them.
 #[derive(Default)]
 pub struct Builder {
     topologies: Vec<(Arc<Mesh>, Arc<Topology>)>,
+    casters: Vec<Caster>,
+    /// The number of each caster in the scene.
+    numbers: Vec<u32>,
+    filling: Filling,
+    spare: Option<LightBuffer>,
 }
 
 impl Builder {
-    pub fn build(&mut self, light: &Light, scene: &[Placed]) -> LightBuffer {
+    /// `scene` is in the order in which it is drawn.
+    pub fn build(&mut self, light: &Light, scene: &[Placed]) -> &LightBuffer {
         let topologies: Vec<_> = scene.iter().map(|placed| self.topology(placed)).collect();
         let boxes = scene.iter().zip(&topologies);
         let corners: Vec<DVec3> = boxes
             .flat_map(|(placed, topology)| box_corners(placed.model, topology.bounds))
             .collect();
         let space = LightSpace::new(light, &corners);
+        self.casters.clear();
+        self.numbers.clear();
         let mut found = Found {
             rays: space.rays,
             receivers: corners.iter().map(|p| space.from_world(*p)).collect(),
-            facing: Vec::new(),
-            casters: Vec::new(),
-            numbers: Vec::new(),
+            casters: &mut self.casters,
+            numbers: &mut self.numbers,
             groups: Vec::new(),
         };
         let mut first_triangles = Vec::new();
         let mut first = 0;
         for (placed, topology) in scene.iter().zip(&topologies) {
             first_triangles.push(first);
-            found.add(
-                space.from_object(placed.model),
-                topology,
-                placed.casts,
-                first,
-            );
+            if placed.casts {
+                found.add(space.from_object(placed.model), topology, first);
+            }
             first += topology.faces.len() as u32;
         }
 
-        let layout = Layout::around(space.rays, &found.casters);
-        let (mut cells, lists) = fill(layout, &found.casters, &found.groups);
-        let mut indices = bits(&found.facing);
-        for cell in &mut cells {
-            cell.first += indices.len() as u32;
-        }
-        indices.extend(lists);
-        let casters = found.casters.iter().zip(&found.numbers);
-        LightBuffer {
+        let groups = found.groups;
+        let layout = Layout::around(space.rays, &self.casters);
+        let spare = self.spare.take();
+        let (mut cells, mut lists, mut vectors) = spare.map_or_else(Default::default, |spare| {
+            (spare.cells, spare.lists, spare.casters)
+        });
+        self.filling.fill(layout, &self.casters, &groups);
+        self.filling.write(&mut cells, &mut lists);
+        let casters = self.casters.iter().zip(&self.numbers);
+        vectors.clear();
+        vectors.extend(
+            casters.flat_map(|(caster, number)| caster_vectors(space.rays, caster, *number)),
+        );
+        self.spare.insert(LightBuffer {
             space,
             layout,
             cells,
-            indices,
-            casters: casters
-                .flat_map(|(caster, number)| caster_vectors(space.rays, caster, *number))
-                .collect(),
+            lists,
+            casters: vectors,
             first_triangles,
             triangle_count: first,
-        }
+        })
     }
 
     fn topology(&mut self, placed: &Placed) -> Arc<Topology> {
@@ -115,19 +124,17 @@ impl Builder {
 }
 
 /// What the scene's triangles are to the light.
-struct Found {
+struct Found<'a> {
     rays: Rays,
     /// The corners of the boxes around everything that shadows can fall on.
     receivers: Vec<DVec3>,
-    facing: Vec<bool>,
-    casters: Vec<Caster>,
-    /// The number of each caster in the scene.
-    numbers: Vec<u32>,
+    casters: &'a mut Vec<Caster>,
+    numbers: &'a mut Vec<u32>,
     groups: Vec<Group>,
 }
 
-impl Found {
-    fn add(&mut self, to_light: DMat4, topology: &Topology, casts: bool, first: u32) {
+impl Found<'_> {
+    fn add(&mut self, to_light: DMat4, topology: &Topology, first: u32) {
         let points = topology.points.par_iter().with_min_len(WORTH_A_THREAD);
         let points: Vec<DVec3> = points.map(|p| to_light.transform_point3(*p)).collect();
         let faces = topology.faces.par_iter().zip(&topology.closed);
@@ -135,12 +142,6 @@ impl Found {
             .with_min_len(WORTH_A_THREAD)
             .map(|(face, closed)| Caster::new(self.rays, face.map(|i| points[i as usize]), *closed))
             .collect();
-        let faces_light = |caster: &Option<Caster>| caster.is_some_and(|c| c.faces_light);
-        self.facing.extend(faces.iter().map(faces_light));
-        if !casts {
-            return;
-        }
-
         // Between its two ends a ray that meets a closed surface leaves it again, through a face that faces away from
         // the light. Of an open surface every face casts, whichever way it is turned.
         let wanted = [false, true].map(|facing| {
@@ -206,25 +207,13 @@ fn box_corners(model: DMat4, [least, most]: [DVec3; 2]) -> Vec<DVec3> {
     (0..8).map(corner).collect()
 }
 
-fn bits(flags: &[bool]) -> Vec<u32> {
-    let word = |flags: &[bool]| {
-        let bits = flags.iter().zip(0..);
-        bits.fold(0, |word, (flag, bit)| word | u32::from(*flag) << bit)
-    };
-    flags.chunks(32).map(word).collect()
-}
-
-/// Plane and number, then the planes of the three edges.
 fn caster_vectors(rays: Rays, caster: &Caster, number: u32) -> [[f32; 4]; 4] {
     let vector = |v: DVec3, w: f32| {
         let [x, y, z] = v.as_vec3().to_array();
         [x, y, z, w]
     };
     let [ab, bc, ca] = caster.edges.map(|edge| vector(edge, 0.0));
-    [
-        vector(caster.shifted_plane(rays), number as f32),
-        ab,
-        bc,
-        ca,
-    ]
+    let number = number as f32 + 1.0;
+    let number = if caster.faces_light { number } else { -number };
+    [vector(caster.shifted_plane(rays), number), ab, bc, ca]
 }

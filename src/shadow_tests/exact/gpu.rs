@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 use super::builder::{Builder, LightBuffer, Placed};
+use super::grid::Layout;
 use super::space::LightSpace;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program};
@@ -17,8 +18,8 @@ use crate::{Error, Result};
 /// The uniforms of `exact.frag`.
 pub const LIGHT_BUFFER: [&str; 5] = [
     "light_buffer_cells",
-    "light_buffer_indices",
-    "light_buffer_triangles",
+    "light_buffer_lists",
+    "light_buffer_casters",
     "light_buffer_rectangle",
     "light_buffer_side",
 ];
@@ -27,7 +28,7 @@ pub const LIGHT_BUFFER: [&str; 5] = [
 const FIRST_UNIT: u32 = 2;
 
 /// A caster's number goes through a float.
-const MOST_TRIANGLES: u32 = 1 << 24;
+const MOST_TRIANGLES: u32 = (1 << 24) - 1;
 
 /// A light buffer in the driver, and how it is made anew.
 pub struct ExactTest {
@@ -67,16 +68,16 @@ struct BufferTexture {
 
 impl ExactTest {
     pub fn new(gl: &glow::Context) -> Result<Self> {
-        let [cells, indices, triangles] = [
+        let [cells, lists, casters] = [
             ("light_buffer_cells", glow::RGBA32UI, 16),
-            ("light_buffer_indices", glow::R32UI, 4),
-            ("light_buffer_triangles", glow::RGBA32F, 16),
+            ("light_buffer_lists", glow::R32UI, 4),
+            ("light_buffer_casters", glow::RGBA32F, 16),
         ]
         .map(|(name, internal_format, texel)| BufferTexture::new(gl, name, internal_format, texel));
         let most_texels = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_BUFFER_SIZE) };
         Ok(Self {
             builder: Builder::default(),
-            textures: [cells?, indices?, triangles?],
+            textures: [cells?, lists?, casters?],
             most_texels: most_texels as usize,
             built: None,
         })
@@ -104,38 +105,17 @@ impl ExactTest {
         }
         let _pass = gl::pass(gl, "the light buffer");
         let light_buffer = self.builder.build(light, &inputs.scene);
-        self.upload(gl, &light_buffer)?;
-        let LightBuffer {
-            space,
-            layout,
-            first_triangles,
-            ..
-        } = light_buffer;
+        let Layout {
+            least, scale, side, ..
+        } = light_buffer.layout;
         let uniforms = Uniforms {
-            rectangle: layout.least.extend(layout.scale.x).extend(layout.scale.y),
-            side: layout.side as i32,
-            space,
-            first_triangles,
+            rectangle: least.extend(scale.x).extend(scale.y),
+            side: side as i32,
+            space: light_buffer.space,
+            first_triangles: light_buffer.first_triangles.clone(),
         };
+        upload(gl, &mut self.textures, light_buffer, self.most_texels)?;
         self.built = Some((inputs, uniforms));
-        Ok(())
-    }
-
-    fn upload(&mut self, gl: &glow::Context, light_buffer: &LightBuffer) -> Result<()> {
-        let triangles = light_buffer.triangle_count;
-        if triangles > MOST_TRIANGLES {
-            return Err(Error::gl(format!(
-                "the exact shadow test: {triangles} triangles, expected at most {MOST_TRIANGLES}"
-            )));
-        }
-        let contents: [&[u8]; 3] = [
-            bytemuck::cast_slice(&light_buffer.cells),
-            bytemuck::cast_slice(&light_buffer.indices),
-            bytemuck::cast_slice(&light_buffer.casters),
-        ];
-        for (texture, contents) in self.textures.iter_mut().zip(contents) {
-            texture.upload(gl, contents, self.most_texels)?;
-        }
         Ok(())
     }
 
@@ -170,6 +150,30 @@ impl ExactTest {
         program.set(gl, "light_buffer_rectangle", uniforms.rectangle);
         program.set(gl, "light_buffer_side", uniforms.side);
     }
+}
+
+fn upload(
+    gl: &glow::Context,
+    textures: &mut [BufferTexture; 3],
+    light_buffer: &LightBuffer,
+    most_texels: usize,
+) -> Result<()> {
+    let triangles = light_buffer.triangle_count;
+    if triangles > MOST_TRIANGLES {
+        return Err(Error::gl(format!(
+            "the exact shadow test: {triangles} triangles, expected at most {MOST_TRIANGLES}: \
+             a smaller scene, or shadow_test=handout"
+        )));
+    }
+    let contents: [&[u8]; 3] = [
+        bytemuck::cast_slice(&light_buffer.cells),
+        bytemuck::cast_slice(&light_buffer.lists),
+        bytemuck::cast_slice(&light_buffer.casters),
+    ];
+    for (texture, contents) in textures.iter_mut().zip(contents) {
+        texture.upload(gl, contents, most_texels)?;
+    }
+    Ok(())
 }
 
 impl BufferTexture {

@@ -9,10 +9,11 @@ use super::caster::Caster;
 use super::polygon::{PADDING, Polygon, visit_cells};
 use super::space::Rays;
 
-/// Cells on each side of the grid: 65,536 of them, the least that GL 3.3 lets a buffer texture hold.
-pub const SIDE: u32 = 256;
-/// The same for each of the six faces around a point light.
-pub const POINT_SIDE: u32 = 104;
+/// How many cells there are for each caster: as many as it has planes, so that where the casters fit into a buffer
+/// texture the cells do.
+const CELLS_FOR_A_CASTER: f64 = 4.0;
+/// The least and the most cells on each side of the grid: to set up fewer costs nothing, more are worth no memory.
+const SIDES: [f64; 2] = [64.0, 512.0];
 
 /// A cell as the shader reads it. Nearness is 1/depth or, where rays are parallel, z.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -50,9 +51,12 @@ const VIEW: [DVec2; 2] = [DVec2::NEG_ONE, DVec2::ONE];
 impl Layout {
     /// Over the rectangle of what casts.
     pub fn around(rays: Rays, casters: &[Caster]) -> Self {
+        let [least_side, most_side] = SIDES;
+        let side = (CELLS_FOR_A_CASTER * casters.len() as f64).sqrt().ceil();
         let side = match rays {
-            Rays::Point => POINT_SIDE,
-            Rays::Spot | Rays::Parallel => SIDE,
+            // All that there is may lie on one of the six faces, or be spread over all of them.
+            Rays::Point => (side / 2.0).clamp(least_side, most_side / 2.0),
+            Rays::Spot | Rays::Parallel => side.clamp(least_side, most_side),
         };
         let [least, most] = match rays {
             Rays::Point => VIEW,
@@ -71,11 +75,11 @@ impl Layout {
             }
         };
         // Without casters one cell is over everything, and is empty.
-        let scale = f64::from(side) / (most - least);
+        let scale = side / (most - least);
         let is_flat = !(least.is_finite() && scale.is_finite());
         Self {
             rays,
-            side,
+            side: side as u32,
             least: if is_flat { DVec2::ZERO } else { least },
             scale: if is_flat { DVec2::ZERO } else { scale },
         }
@@ -155,129 +159,126 @@ struct Entry {
 }
 
 /// The cells while they are filled.
-struct Filling {
-    layout: Layout,
-    lit_above: Vec<f32>,
-    dark_below: Vec<f32>,
-    /// Of the group that is being filled in, by its number: cells that its boundary passes, cells that it is in, and the
-    /// farthest of it in each.
-    has_boundary_of: Vec<u32>,
-    has_some_of: Vec<u32>,
-    farthest: Vec<f32>,
+#[derive(Default)]
+pub struct Filling {
+    cells: Vec<Unfinished>,
     entries: Vec<Entry>,
 }
 
-/// The cells of all groups, and their lists.
-pub fn fill(layout: Layout, casters: &[Caster], groups: &[Group]) -> (Vec<Cell>, Vec<u32>) {
-    let count = layout.faces() * (layout.side * layout.side) as usize;
-    let mut filling = Filling {
-        layout,
-        lit_above: vec![f32::NEG_INFINITY; count],
-        dark_below: vec![f32::NEG_INFINITY; count],
-        has_boundary_of: vec![u32::MAX; count],
-        has_some_of: vec![u32::MAX; count],
-        farthest: vec![0.0; count],
-        entries: Vec::new(),
-    };
-    for (group, number) in groups.iter().zip(0..) {
-        filling.add(number, group, casters);
-    }
-    filling.finish()
+#[derive(Clone, Copy)]
+struct Unfinished {
+    lit_above: f32,
+    dark_below: f32,
+    /// The last group whose boundary passes the cell, and the last one that has a caster in it.
+    boundary_of: u32,
+    some_of: u32,
+    /// The farthest of that group here.
+    farthest: f32,
 }
 
+const EMPTY: Unfinished = Unfinished {
+    lit_above: f32::NEG_INFINITY,
+    dark_below: f32::NEG_INFINITY,
+    boundary_of: u32::MAX,
+    some_of: u32::MAX,
+    farthest: 0.0,
+};
+
 impl Filling {
-    fn add(&mut self, number: u32, group: &Group, casters: &[Caster]) {
-        let layout = self.layout;
+    pub fn fill(&mut self, layout: Layout, casters: &[Caster], groups: &[Group]) {
+        let count = layout.faces() * (layout.side * layout.side) as usize;
+        self.cells.clear();
+        self.cells.resize(count, EMPTY);
+        self.entries.clear();
+        for (group, number) in groups.iter().zip(0..) {
+            self.add(layout, number, group, casters);
+        }
+    }
+
+    fn add(&mut self, layout: Layout, number: u32, group: &Group, casters: &[Caster]) {
         for face in 0..layout.faces() {
             for ends in &group.boundary {
                 layout.visit(face, *ends, |cell, _, _| {
-                    self.has_boundary_of[cell] = number
+                    self.cells[cell].boundary_of = number
                 });
             }
             let first_entry = self.entries.len();
             for index in group.casters.clone() {
-                self.add_caster(face, number, index, &casters[index as usize]);
+                self.add_caster(layout, face, number, index, &casters[index as usize]);
             }
             // Where a group has no boundary, its edge does not run: it covers the cell as a whole, as soon as any of it
             // is there.
             for Entry { cell, .. } in &self.entries[first_entry..] {
-                let cell = *cell as usize;
-                if self.has_boundary_of[cell] != number {
-                    self.dark_below[cell] = self.dark_below[cell].max(self.farthest[cell]);
+                let cell = &mut self.cells[*cell as usize];
+                if cell.boundary_of != number {
+                    cell.dark_below = cell.dark_below.max(cell.farthest);
                 }
             }
         }
     }
 
-    fn add_caster(&mut self, face: usize, group: u32, index: u32, caster: &Caster) {
-        let plane = self.layout.nearness(face, caster.plane);
+    fn add_caster(&mut self, layout: Layout, face: usize, group: u32, index: u32, caster: &Caster) {
+        let plane = layout.nearness(face, caster.plane);
         let slope = plane.truncate();
         let half_range = (0.5 + PADDING) * slope.abs().element_sum();
-        let parallel = self.layout.rays == Rays::Parallel;
+        // What rounding may do to a nearness, in parallel rays and relative.
+        let (offset, share) = match layout.rays {
+            Rays::Parallel => (caster.rounding, 0.0),
+            Rays::Spot | Rays::Point => (0.0, caster.rounding),
+        };
         let mut range = None;
-        self.layout
-            .visit(face, caster.corners, |cell, corner, polygon| {
-                // No nearer and no farther than the triangle's own corners.
-                let [least, most] = *range.get_or_insert_with(|| {
-                    let at = polygon.iter().map(|corner| slope.dot(*corner) + plane.z);
-                    at.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], at| {
-                        [least.min(at), most.max(at)]
-                    })
-                });
-                let middle = slope.dot(corner + 0.5) + plane.z;
-                let nearest = most.min(middle + half_range);
-                let farthest = least.max(middle - half_range);
-                let [nearest, farthest] = if parallel {
-                    [nearest + caster.rounding, farthest - caster.rounding]
-                } else {
-                    [
-                        nearest * (1.0 + caster.rounding),
-                        farthest * (1.0 - caster.rounding),
-                    ]
-                }
-                .map(|nearness| nearness as f32);
-                self.lit_above[cell] = self.lit_above[cell].max(nearest);
-                self.farthest[cell] = if self.has_some_of[cell] == group {
-                    self.farthest[cell].min(farthest)
-                } else {
-                    farthest
-                };
-                self.has_some_of[cell] = group;
-                self.entries.push(Entry {
-                    cell: cell as u32,
-                    caster: index,
-                    nearest,
-                });
+        layout.visit(face, caster.corners, |cell, corner, polygon| {
+            // No nearer and no farther than the triangle's own corners.
+            let [least, most] = *range.get_or_insert_with(|| {
+                let at = polygon.iter().map(|corner| slope.dot(*corner) + plane.z);
+                at.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], at| {
+                    [least.min(at), most.max(at)]
+                })
             });
+            let middle = slope.dot(corner + 0.5) + plane.z;
+            let nearest = most.min(middle + half_range) * (1.0 + share) + offset;
+            let farthest = least.max(middle - half_range) * (1.0 - share) - offset;
+            let (nearest, farthest) = (nearest as f32, farthest as f32);
+            self.entries.push(Entry {
+                cell: cell as u32,
+                caster: index,
+                nearest,
+            });
+            let cell = &mut self.cells[cell];
+            cell.lit_above = cell.lit_above.max(nearest);
+            cell.farthest = match cell.some_of == group {
+                true => cell.farthest.min(farthest),
+                false => farthest,
+            };
+            cell.some_of = group;
+        });
     }
 
-    /// The lists one behind the other, without what lies in the dark anyway.
-    fn finish(self) -> (Vec<Cell>, Vec<u32>) {
-        let thresholds = self.lit_above.iter().zip(&self.dark_below);
-        let mut cells: Vec<Cell> = thresholds
-            .map(|(lit_above, dark_below)| Cell {
-                lit_above: *lit_above,
-                dark_below: *dark_below,
-                first: 0,
-                count: 0,
-            })
-            .collect();
-        let is_of_use = |entry: &&Entry| entry.nearest >= self.dark_below[entry.cell as usize];
+    /// The cells with their lists, one list behind the other, without what lies in the dark anyway.
+    pub fn write(&self, cells: &mut Vec<Cell>, lists: &mut Vec<u32>) {
+        cells.clear();
+        cells.extend(self.cells.iter().map(|cell| Cell {
+            lit_above: cell.lit_above,
+            dark_below: cell.dark_below,
+            first: 0,
+            count: 0,
+        }));
+        let is_of_use =
+            |entry: &&Entry| entry.nearest >= self.cells[entry.cell as usize].dark_below;
         for entry in self.entries.iter().filter(is_of_use) {
             cells[entry.cell as usize].count += 1;
         }
         let mut end = 0;
-        for cell in &mut cells {
+        for cell in cells.iter_mut() {
             cell.first = end;
-            end += cell.count;
-            cell.count = 0;
+            end += std::mem::take(&mut cell.count);
         }
-        let mut lists = vec![0; end as usize];
+        lists.clear();
+        lists.resize(end as usize, 0);
         for entry in self.entries.iter().filter(is_of_use) {
             let cell = &mut cells[entry.cell as usize];
             lists[(cell.first + cell.count) as usize] = entry.caster;
             cell.count += 1;
         }
-        (cells, lists)
     }
 }

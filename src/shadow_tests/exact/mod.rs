@@ -30,7 +30,7 @@ mod topology;
 
 pub use builder::{Builder, LightBuffer, Placed};
 pub use gpu::{ExactTest, LIGHT_BUFFER};
-pub use grid::{Cell, POINT_SIDE, SIDE};
+pub use grid::{Cell, Layout};
 pub use space::{LightSpace, Rays};
 
 /// The file of [`super::SHADERS`].
