@@ -4,6 +4,8 @@
 
 mod hard;
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 use hard::{Case, cases};
 use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
@@ -153,4 +155,90 @@ fn no_pixel_is_wrong_and_few_triangles_are_asked() {
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+fn copy(built: &LightBuffer) -> LightBuffer {
+    LightBuffer {
+        space: built.space,
+        layout: built.layout,
+        cells: built.cells.clone(),
+        lists: built.lists.clone(),
+        casters: built.casters.clone(),
+        first_triangles: built.first_triangles.clone(),
+        triangle_count: built.triangle_count,
+    }
+}
+
+/// The controls, on a scene with solids and one with sheets: a light buffer that is wrong in one way scores badly.
+#[test]
+fn a_wrong_light_buffer_scores_badly() {
+    let wrong = |name: &str,
+                 edit: &dyn Fn(&Scene) -> Scene,
+                 spoil: &dyn Fn(&mut Vec<[f32; 4]>, &mut Vec<u32>)| {
+        let case = cases().into_iter().find(|case| case.name == name);
+        let scene = case.expect("there is such a case").scene;
+        let truth = TruthRays::new(&scene, 0).truth(SIZE);
+        let mut builder = Builder::default();
+        let built = builder.build(&scene.lights[0], &placed(&edit(&scene)));
+        let mut spoilt = copy(built);
+        spoil(&mut spoilt.casters, &mut spoilt.lists);
+        let score = score(&scene, &truth, &spoilt);
+        println!("{name}: {score:?}");
+        [score.false_shadow, score.false_light]
+    };
+    let as_it_is = |scene: &Scene| scene.clone();
+    let turned = |scene: &Scene| {
+        let mut scene = scene.clone();
+        for object in &mut scene.objects {
+            for face in &mut Arc::make_mut(&mut object.mesh).faces {
+                face.swap(1, 2);
+            }
+        }
+        scene
+    };
+    let move_planes = |by: f32| {
+        move |casters: &mut Vec<[f32; 4]>, _: &mut Vec<u32>| {
+            for [x, y, z, _] in casters.iter_mut().step_by(4) {
+                (*x, *y, *z) = (*x * by, *y * by, *z * by);
+            }
+        }
+    };
+    for name in ["solids, spot", "solids, point", "solids, sun"] {
+        // The controls of the controls.
+        assert_eq!(wrong(name, &as_it_is, &|_, _| ()), [0, 0], "{name}");
+        // The side that faces the light in place of the one that faces away.
+        let [shadow, _] = wrong(name, &turned, &|_, _| ());
+        assert!(shadow > 1000, "{name}: {shadow}");
+        // The lists of other cells.
+        let [_, light] = wrong(name, &as_it_is, &|_, lists| lists.rotate_left(1000));
+        assert!(light > 20, "{name}: {light}");
+    }
+    // A tolerance on the wrong side: neighbours on an open surface shadow each other.
+    for name in ["winding, spot", "winding, point"] {
+        let [shadow, _] = wrong(name, &as_it_is, &move_planes(1.01));
+        assert!(shadow > 20, "{name}: {shadow}");
+        let [_, light] = wrong(name, &as_it_is, &move_planes(0.9));
+        assert!(light > 20, "{name}: {light}");
+    }
+}
+
+/// The control of the number of triangles that are asked: without what is known of whole cells every list is gone
+/// through, and no label tells.
+#[test]
+fn what_is_known_of_cells_saves_most_tests() {
+    let scene = hard::five_shapes();
+    let truth = TruthRays::new(&scene, 0).truth(SIZE);
+    let mut builder = Builder::default();
+    let built = builder.build(&scene.lights[0], &placed(&scene));
+    let mut blind = copy(built);
+    for cell in &mut blind.cells {
+        cell.lit_above = f32::INFINITY;
+        cell.dark_below = f32::NEG_INFINITY;
+    }
+    let [informed, blind] = [built, &blind].map(|buffer| score(&scene, &truth, buffer));
+    assert_eq!(blind.false_shadow + blind.false_light, 0);
+    assert!(
+        blind.tests > 10.0 * informed.tests,
+        "{blind:?} {informed:?}"
+    );
 }

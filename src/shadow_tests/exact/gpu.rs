@@ -201,13 +201,7 @@ impl BufferTexture {
 
     fn upload(&mut self, gl: &glow::Context, contents: &[u8], most_texels: usize) -> Result<()> {
         let texels = contents.len() / self.texel;
-        if texels > most_texels {
-            return Err(Error::gl(format!(
-                "the exact shadow test: {} of {texels} texels, expected at most {most_texels} \
-                 (GL_MAX_TEXTURE_BUFFER_SIZE): a smaller scene, or shadow_test=handout",
-                self.name
-            )));
-        }
+        check_size(self.name, texels, most_texels)?;
         unsafe {
             gl.bind_buffer(glow::TEXTURE_BUFFER, Some(self.buffer));
             // Larger than now by half: a light that moves a little finds room.
@@ -225,5 +219,36 @@ impl BufferTexture {
             gl.buffer_sub_data_u8_slice(glow::TEXTURE_BUFFER, 0, contents);
         }
         Ok(())
+    }
+}
+
+/// GL 3.3 promises 65,536 texels in a buffer texture, and no more.
+fn check_size(name: &str, texels: usize, most: usize) -> Result<()> {
+    if texels <= most {
+        return Ok(());
+    }
+    Err(Error::gl(format!(
+        "the exact shadow test: {name} has {texels} texels, expected at most {most} \
+         (GL_MAX_TEXTURE_BUFFER_SIZE): a smaller scene, or shadow_test=handout"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_size;
+
+    #[test]
+    fn what_does_not_fit_is_told() {
+        assert!(check_size("light_buffer_cells", 65_536, 65_536).is_ok());
+        let refused = check_size("light_buffer_cells", 65_537, 65_536).unwrap_err();
+        for word in [
+            "light_buffer_cells",
+            "65537",
+            "65536",
+            "shadow_test=handout",
+        ] {
+            assert!(refused.to_string().contains(word), "{refused}");
+        }
+        assert_eq!(refused.exit_code(), 1);
     }
 }

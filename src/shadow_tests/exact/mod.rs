@@ -17,6 +17,11 @@
 //! centre is; lengths are in units of the scene's size. It is rounded to f32 once, when it is stored. So it is the same
 //! wherever the scene lies and however large it is.
 //!
+//! What faces away from the light: a triangle that casts is in its own shadow there, so visibility is 0; one that casts
+//! on nothing (a floor under everything, seen from below) is not asked about, and visibility is 1. In the picture both
+//! are as dark as the lab's shading makes them; only where smooth normals face the light and their triangle does not, the
+//! first rule is seen: without it the terminator would be lit in patches.
+//!
 //! What it cannot see: a camera inside a closed solid, which the light is outside of, sees what else is in there lit.
 //! Of a closed solid only the far side casts, and there it has none behind it.
 
