@@ -172,16 +172,14 @@ fn copy(built: &LightBuffer) -> LightBuffer {
 /// The controls, on a scene with solids and one with sheets: a light buffer that is wrong in one way scores badly.
 #[test]
 fn a_wrong_light_buffer_scores_badly() {
-    let wrong = |name: &str,
-                 edit: &dyn Fn(&Scene) -> Scene,
-                 spoil: &dyn Fn(&mut Vec<[f32; 4]>, &mut Vec<u32>)| {
+    let wrong = |name: &str, edit: &dyn Fn(&Scene) -> Scene, spoil: &dyn Fn(&mut LightBuffer)| {
         let case = cases().into_iter().find(|case| case.name == name);
         let scene = case.expect("there is such a case").scene;
         let truth = TruthRays::new(&scene, 0).truth(SIZE);
         let mut builder = Builder::default();
         let built = builder.build(&scene.lights[0], &placed(&edit(&scene)));
         let mut spoilt = copy(built);
-        spoil(&mut spoilt.casters, &mut spoilt.lists);
+        spoil(&mut spoilt);
         let score = score(&scene, &truth, &spoilt);
         println!("{name}: {score:?}");
         [score.false_shadow, score.false_light]
@@ -197,20 +195,20 @@ fn a_wrong_light_buffer_scores_badly() {
         scene
     };
     let move_planes = |by: f32| {
-        move |casters: &mut Vec<[f32; 4]>, _: &mut Vec<u32>| {
-            for [x, y, z, _] in casters.iter_mut().step_by(4) {
+        move |buffer: &mut LightBuffer| {
+            for [x, y, z, _] in buffer.casters.iter_mut().step_by(4) {
                 (*x, *y, *z) = (*x * by, *y * by, *z * by);
             }
         }
     };
     for name in ["solids, spot", "solids, point", "solids, sun"] {
         // The controls of the controls.
-        assert_eq!(wrong(name, &as_it_is, &|_, _| ()), [0, 0], "{name}");
+        assert_eq!(wrong(name, &as_it_is, &|_| ()), [0, 0], "{name}");
         // The side that faces the light in place of the one that faces away.
-        let [shadow, _] = wrong(name, &turned, &|_, _| ());
+        let [shadow, _] = wrong(name, &turned, &|_| ());
         assert!(shadow > 1000, "{name}: {shadow}");
         // The lists of other cells.
-        let [_, light] = wrong(name, &as_it_is, &|_, lists| lists.rotate_left(1000));
+        let [_, light] = wrong(name, &as_it_is, &|buffer| buffer.lists.rotate_left(1000));
         assert!(light > 20, "{name}: {light}");
     }
     // A tolerance on the wrong side: neighbours on an open surface shadow each other.

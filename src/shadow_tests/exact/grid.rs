@@ -140,7 +140,7 @@ fn on_face(rays: Rays, face: usize, point: DVec3) -> DVec3 {
         Rays::Parallel => DVec3::new(point.x, point.y, 1.0),
         Rays::Point => {
             let axis = face / 2;
-            let along = if face % 2 == 0 { 1.0 } else { -1.0 };
+            let along = [1.0, -1.0][face % 2];
             DVec3::new(
                 point[(axis + 1) % 3],
                 point[(axis + 2) % 3],
