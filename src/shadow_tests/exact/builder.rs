@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
-use super::caster::Caster;
+use super::caster::{Caster, faces_light};
 use super::grid::{Cell, Filling, Group, Layout};
 use super::space::{LightSpace, Rays};
 use super::topology::{FaceEdge, Topology};
@@ -123,6 +123,14 @@ impl Builder {
     }
 }
 
+/// What a triangle does.
+#[derive(Clone, Copy, PartialEq)]
+enum Cast {
+    Nothing,
+    FacingAway,
+    FacingLight,
+}
+
 /// What the scene's triangles are to the light.
 struct Found<'a> {
     rays: Rays,
@@ -137,54 +145,63 @@ impl Found<'_> {
     fn add(&mut self, to_light: DMat4, topology: &Topology, first: u32) {
         let points = topology.points.par_iter().with_min_len(WORTH_A_THREAD);
         let points: Vec<DVec3> = points.map(|p| to_light.transform_point3(*p)).collect();
-        let faces = topology.faces.par_iter().zip(&topology.closed);
-        let faces: Vec<Option<Caster>> = faces
-            .with_min_len(WORTH_A_THREAD)
-            .map(|(face, closed)| Caster::new(self.rays, face.map(|i| points[i as usize]), *closed))
-            .collect();
+        let caster = |face: usize| {
+            let corners = topology.faces[face].map(|i| points[i as usize]);
+            Caster::new(self.rays, corners, topology.closed[face])
+        };
         // Between its two ends a ray that meets a closed surface leaves it again, through a face that faces away from
         // the light. Of an open surface every face casts, whichever way it is turned.
-        let wanted = [false, true].map(|facing| {
-            let is_needed = |(caster, closed): (&Option<Caster>, &bool)| {
-                caster.is_some_and(|caster| {
-                    caster.faces_light == facing
-                        && !(*closed && facing)
-                        && self.casts_on_something(&caster)
-                })
-            };
-            let faces = faces.par_iter().zip(&topology.closed);
-            let wanted: Vec<bool> = faces.with_min_len(WORTH_A_THREAD).map(is_needed).collect();
-            wanted
-        });
+        let cast = |face: usize| {
+            let corners = topology.faces[face].map(|i| points[i as usize]);
+            if topology.closed[face] && faces_light(self.rays, corners) {
+                return Cast::Nothing;
+            }
+            match caster(face).filter(|caster| self.casts_on_something(caster)) {
+                None => Cast::Nothing,
+                Some(caster) if caster.faces_light => Cast::FacingLight,
+                Some(_) => Cast::FacingAway,
+            }
+        };
+        let casts = (0..topology.faces.len()).into_par_iter();
+        let casts: Vec<Cast> = casts.with_min_len(WORTH_A_THREAD).map(cast).collect();
+
+        let first_caster = self.casters.len();
+        let mut chosen = Vec::new();
         let mut uses = vec![0; topology.edges.len()];
         for component in &topology.components {
-            for wanted in &wanted {
-                let start = self.casters.len() as u32;
-                let chosen = component.iter().filter(|face| wanted[**face as usize]);
-                for face in chosen.clone() {
-                    let face = *face as usize;
-                    self.casters.push(faces[face].expect("it is wanted"));
-                    self.numbers.push(first + face as u32);
-                    for FaceEdge { edge, direction } in topology.face_edges[face] {
-                        uses[edge as usize] += direction;
-                    }
+            for wanted in [Cast::FacingAway, Cast::FacingLight] {
+                let start = chosen.len();
+                let of_group = component.iter().map(|face| *face as usize);
+                chosen.extend(of_group.filter(|face| casts[*face] == wanted));
+                let group = &chosen[start..];
+                for FaceEdge { edge, direction } in
+                    group.iter().flat_map(|face| topology.face_edges[*face])
+                {
+                    uses[edge as usize] += direction;
                 }
                 let mut boundary = Vec::new();
-                for face_edge in chosen.flat_map(|face| topology.face_edges[*face as usize]) {
-                    let edge = face_edge.edge as usize;
-                    if std::mem::take(&mut uses[edge]) != 0 {
-                        boundary.push(topology.edges[edge].map(|i| points[i as usize]));
+                for FaceEdge { edge, .. } in
+                    group.iter().flat_map(|face| topology.face_edges[*face])
+                {
+                    if std::mem::take(&mut uses[edge as usize]) != 0 {
+                        let ends = topology.edges[edge as usize];
+                        boundary.push(ends.map(|i| points[i as usize]));
                     }
                 }
-                let end = self.casters.len() as u32;
-                if start < end {
+                if !group.is_empty() {
+                    let range = [start, chosen.len()].map(|n| (first_caster + n) as u32);
                     self.groups.push(Group {
-                        casters: start..end,
+                        casters: range[0]..range[1],
                         boundary,
                     });
                 }
             }
         }
+        let casters = chosen.par_iter().with_min_len(WORTH_A_THREAD);
+        let casters = casters.map(|face| caster(*face).expect("it casts"));
+        self.casters.par_extend(casters);
+        let numbers = chosen.iter().map(|face| first + *face as u32);
+        self.numbers.extend(numbers);
     }
 
     /// Whether anything of the scene can be behind a triangle: a floor under everything casts on nothing.

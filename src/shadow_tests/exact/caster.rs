@@ -28,15 +28,27 @@ pub struct Caster {
     pub faces_light: bool,
 }
 
+/// How far a triangle's normal points the way that the rays go, in whatever unit: negative where it faces the light.
+fn along(rays: Rays, normal: DVec3, corner: DVec3) -> f64 {
+    match rays {
+        Rays::Spot | Rays::Point => normal.dot(corner),
+        Rays::Parallel => -normal.z,
+    }
+}
+
+pub fn faces_light(rays: Rays, [a, b, c]: [DVec3; 3]) -> bool {
+    along(rays, (b - a).cross(c - a), a) < 0.0
+}
+
 impl Caster {
     /// None where the light sees the triangle edge-on, or it has no area.
     pub fn new(rays: Rays, corners: [DVec3; 3], closed: bool) -> Option<Self> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
-        // Positive where the triangle faces away from the light: its normal points the way the rays go.
-        let (along, distance) = match rays {
-            Rays::Spot | Rays::Point => (normal.dot(a), a.length()),
-            Rays::Parallel => (-normal.z, 1.0),
+        let along = along(rays, normal, a);
+        let distance = match rays {
+            Rays::Spot | Rays::Point => a.length(),
+            Rays::Parallel => 1.0,
         };
         if along.abs() <= EDGE_ON * normal.length() * distance {
             return None;

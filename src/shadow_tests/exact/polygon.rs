@@ -43,11 +43,11 @@ impl Polygon {
 
     /// Keeps what is on the plane's positive side (Sutherland and Hodgman 1974).
     fn clip(&mut self, plane: DVec3) {
-        let sides = self.corners.map(|corner| plane.dot(corner));
-        let sides = &sides[..self.count];
-        if sides.iter().all(|side| *side >= 0.0) {
+        if self.corners().iter().all(|c| plane.dot(*c) >= 0.0) {
             return;
         }
+        let sides = self.corners.map(|corner| plane.dot(corner));
+        let sides = &sides[..self.count];
         let whole = *self;
         self.count = 0;
         for (i, side) in sides.iter().enumerate() {
