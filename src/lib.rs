@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`scene`] | plain data in f64: meshes, objects, camera, light |
 //! | [`gl`] | what the courses gave their students: shaders, meshes, textures, readback, the call trace |
+//! | [`shadow_tests`] | the shadow tests that no handout has |
 //! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
 //! | [`ground_truth`] | what is in shadow in truth: rays in f64, which know no lab |
 //! | [`measure`] | a visibility picture against the truth, in figures |
@@ -15,7 +16,8 @@
 //! | [`progress`] | how far a long task has come |
 //! | [`error`] | the one error type |
 //!
-//! Imports go downward only: `headless`, `window`, `report` and the command line use `labs`, `labs` use `gl`, `gl` uses `scene`.
+//! Imports go downward only: `headless`, `window`, `report` and the command line use `labs`, `labs` use
+//! `shadow_tests` and `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
 pub mod error;
@@ -29,6 +31,7 @@ pub mod picture;
 pub mod progress;
 pub mod report;
 pub mod scene;
+pub mod shadow_tests;
 pub mod window;
 
 pub use error::{Error, Result};

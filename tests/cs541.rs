@@ -44,6 +44,7 @@ fn visibility_is_the_shadow_test_of_the_lighting_shader() {
         "light=point",
         "beam=circular",
         "depth_format=16",
+        "shadow_test=exact",
     ] {
         let mut bench = Bench::new("cs541", SIZE, &[setting]);
         let visibility = bench.visibility();
@@ -242,6 +243,7 @@ fn every_setting_is_read() {
         (&[], "remedy=both"),
         (&[], "epsilon=0.01"),
         (&["remedy=culling"], "second_plane=on"),
+        (&[], "shadow_test=exact"),
         (&[], "shadows=off"),
     ] {
         let same_as_handout = setting == "depth_format=24";

@@ -65,8 +65,8 @@ fn differs_from_foretold(
 
 #[test]
 fn visibility_is_the_shadow_test_of_the_shading() {
-    for stage in STAGES {
-        let stage = format!("stage={stage}");
+    let stages = STAGES.map(|stage| format!("stage={stage}"));
+    for stage in stages.into_iter().chain(["shadow_test=exact".to_owned()]) {
         let mut bench = with_scene(course(), &[&stage]);
         let visibility = bench.visibility();
         let picture = bench.picture();
@@ -280,6 +280,7 @@ fn every_setting_is_read() {
         (room, "bias=0.02"),
         (&["scene=room", "stage=slope"], "bias=0.02"),
         (room, "map_size=256"),
+        (room, "shadow_test=exact"),
         (room, "shadows=off"),
     ] {
         assert!(changes(base, setting), "{setting}");

@@ -92,7 +92,13 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "labs",
-        imports: &["gl", "scene", "picture", "error"],
+        imports: &["shadow_tests", "gl", "scene", "picture", "error"],
+        crates: &["glow"],
+        may_be_unsafe: true,
+    },
+    Room {
+        name: "shadow_tests",
+        imports: &["gl", "scene", "error"],
         crates: &["glow"],
         may_be_unsafe: true,
     },

@@ -11,7 +11,8 @@ use super::uniform::{Uniform, Value};
 use crate::scene::reading;
 use crate::{Error, Result};
 
-/// A lab's shader files: those in the binary, or a student's own of the same names in their place.
+/// A lab's shader files: those in the binary, or a student's own of the same names in their place. A file that several
+/// labs share has its folder in its name.
 pub struct Shaders {
     lab: &'static str,
     builtin: &'static [(&'static str, &'static str)],
@@ -64,7 +65,10 @@ impl Shaders {
             .find(|(known, _)| *known == name)
             .expect("a lab asks for its own shaders only");
         Ok(Source {
-            path: Path::new("glsl").join(self.lab).join(name),
+            path: match name.contains('/') {
+                true => Path::new("glsl").join(name),
+                false => Path::new("glsl").join(self.lab).join(name),
+            },
             text: Cow::Borrowed(text),
             students: false,
         })

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 /// A uniform of one program.
@@ -37,6 +37,7 @@ impl Uniform {
 pub enum Value {
     Mat4([f32; 16]),
     Mat3([f32; 9]),
+    Vec4([f32; 4]),
     Vec3([f32; 3]),
     Float(f32),
     /// Samplers (their texture unit), choices and, as 0 or 1, `bool`s.
@@ -49,6 +50,7 @@ impl Value {
             match self {
                 Self::Mat4(columns) => gl.uniform_matrix_4_f32_slice(location, false, &columns),
                 Self::Mat3(columns) => gl.uniform_matrix_3_f32_slice(location, false, &columns),
+                Self::Vec4([x, y, z, w]) => gl.uniform_4_f32(location, x, y, z, w),
                 Self::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),
                 Self::Float(value) => gl.uniform_1_f32(location, value),
                 Self::Int(value) => gl.uniform_1_i32(location, value),
@@ -66,6 +68,12 @@ impl From<DMat4> for Value {
 impl From<DMat3> for Value {
     fn from(matrix: DMat3) -> Self {
         Self::Mat3(matrix.as_mat3().to_cols_array())
+    }
+}
+
+impl From<DVec4> for Value {
+    fn from(vector: DVec4) -> Self {
+        Self::Vec4(vector.as_vec4().to_array())
     }
 }
 

@@ -53,7 +53,7 @@ pub struct Test {
     pub rule: Expected,
 }
 
-/// The handouts' tests. None of them holds everywhere: their rule is no more than to be shown.
+/// The handouts' tests, none of which holds everywhere: their rule is no more than to be shown. And the exact one.
 pub const TESTS: &[Test] = &[
     handout("cs541", "remedy=none filter=nearest"),
     handout("cs541", "remedy=epsilon"),
@@ -64,6 +64,8 @@ pub const TESTS: &[Test] = &[
     handout("csci3260", "stage=slope"),
     handout("csci3260", "stage=culling"),
     handout("csci3260", "stage=pcf"),
+    exact("cs541"),
+    exact("csci3260"),
 ];
 
 const fn handout(lab: &'static str, settings: &'static str) -> Test {
@@ -71,6 +73,14 @@ const fn handout(lab: &'static str, settings: &'static str) -> Test {
         lab,
         settings,
         rule: Expected::Shown,
+    }
+}
+
+const fn exact(lab: &'static str) -> Test {
+    Test {
+        lab,
+        settings: "shadow_test=exact",
+        rule: Expected::Exact,
     }
 }
 

@@ -7,6 +7,7 @@
 //! | First pass: drawing the shadow map | `first_pass.rs` |
 //! | Second pass: using the shadow map | `second_pass.rs`; `glsl/cs541/lighting.vert`, `lighting.frag` |
 //! | Shadow acne | the settings `remedy`, `epsilon`, `second_plane` |
+//! | no part of it: a test without a map | `exact_test.rs`; `glsl/cs541/lighting_exact.frag` |
 //!
 //! Chosen, because the handout leaves it to each student: the scene, the light's near and far, the step of each key,
 //! the value of epsilon, and the distance of the second plane.
@@ -14,6 +15,7 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
+mod exact_test;
 mod explain;
 mod first_pass;
 mod programs;
@@ -31,10 +33,11 @@ use glow::HasContext;
 use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
 use crate::picture::Projection;
 use crate::scene::{Camera, Light, Object, Scene, rotate, shapes};
-use crate::{Error, Result};
+use exact_test::Exact;
 use first_pass::MapInputs;
 use programs::{Programs, SHADERS};
 use second_pass::Sky;
@@ -81,6 +84,8 @@ struct Cs541 {
     drawn: Option<MapInputs>,
     sky: Sky,
 
+    /// What only the setting shadow_test asks for.
+    exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
     explainer: Option<Program>,
@@ -145,9 +150,29 @@ impl Cs541 {
             shadow_buffer,
             drawn: None,
             sky,
+            exact: None,
             visibility: None,
             explainer: None,
         })
+    }
+
+    /// The first pass, if the map that it drew last does not serve on.
+    fn prepare_shadow_map(&mut self, gl: &glow::Context) -> Result<()> {
+        let kind = ShadowBufferKind::new(self.largest_map, &self.settings);
+        if kind != self.shadow_buffer.kind {
+            self.shadow_buffer.delete(gl);
+            self.shadow_buffer = ShadowBuffer::new(gl, kind)?;
+            self.drawn = None;
+        }
+        if self.settings.switch("shadows") {
+            let inputs = self.map_inputs();
+            let redraw = self.settings.choice("redraw") == "every_frame";
+            if redraw || self.drawn.as_ref() != Some(&inputs) {
+                self.draw_shadow_map(gl, &inputs);
+                self.drawn = Some(inputs);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -240,19 +265,10 @@ impl Lab for Cs541 {
 
     #[doc(alias = "draw")]
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
-        let kind = ShadowBufferKind::new(self.largest_map, &self.settings);
-        if kind != self.shadow_buffer.kind {
-            self.shadow_buffer.delete(gl);
-            self.shadow_buffer = ShadowBuffer::new(gl, kind)?;
-            self.drawn = None;
-        }
-        if self.settings.switch("shadows") {
-            let inputs = self.map_inputs();
-            let redraw = self.settings.choice("redraw") == "every_frame";
-            if redraw || self.drawn.as_ref() != Some(&inputs) {
-                self.draw_shadow_map(gl, &inputs);
-                self.drawn = Some(inputs);
-            }
+        if self.is_exact() {
+            self.prepare_exact_test(gl)?;
+        } else {
+            self.prepare_shadow_map(gl)?;
         }
         match show {
             Show::Picture => self.draw_scene(gl),
@@ -263,6 +279,11 @@ impl Lab for Cs541 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::new(gl, &self.shaders)?;
+        if let Some(exact) = &mut self.exact {
+            exact
+                .reload(gl, &self.shaders)
+                .inspect_err(|_| programs.delete(gl))?;
+        }
         std::mem::replace(&mut self.programs, programs).delete(gl);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
         for program in made_on_demand.into_iter().flatten() {
@@ -274,11 +295,7 @@ impl Lab for Cs541 {
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
+        self.check_map()?;
         let Light { near, far, .. } = *self.light();
         Ok(ShadowTexture {
             texture: self.shadow_buffer.depth_texture_buffer,

@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
+use crate::shadow_tests::{self, exact};
 
 /// The shaders, which are the lesson's other half.
 pub const SHADERS: &[(&str, &str)] = &[
@@ -30,6 +31,19 @@ pub const SHADERS: &[(&str, &str)] = &[
         "explain.frag",
         include_str!("../../../glsl/cs541/explain.frag"),
     ),
+    (
+        "lighting_exact.vert",
+        include_str!("../../../glsl/cs541/lighting_exact.vert"),
+    ),
+    (
+        "lighting_exact.frag",
+        include_str!("../../../glsl/cs541/lighting_exact.frag"),
+    ),
+    (
+        "visibility_exact.frag",
+        include_str!("../../../glsl/cs541/visibility_exact.frag"),
+    ),
+    shadow_tests::SHADERS[0],
     ("unlit.vert", include_str!("../../../glsl/cs541/unlit.vert")),
     ("unlit.frag", include_str!("../../../glsl/cs541/unlit.frag")),
 ];
@@ -44,6 +58,21 @@ pub const SHADOW_TEST: [&str; 6] = [
     "epsilon",
     "shadows",
     "beam",
+];
+
+/// Uniforms of the exact shadow test.
+const EXACT_TEST: [&str; 3] = ["light_model_matrix", "first_triangle", "beam"];
+/// Uniforms of the lighting.
+const LIGHTING: [&str; 9] = [
+    "normal_matrix",
+    "eye_position",
+    "light_position",
+    "ambient_color",
+    "light_color",
+    "diffuse_color",
+    "specular_color",
+    "shininess",
+    "usampler",
 ];
 
 /// The programs of the two passes, and of what is neither lit nor shadowed.
@@ -89,18 +118,7 @@ fn shadow_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
 
 fn lighting_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
     let _pass = gl::pass(gl, "set-up: the lighting shader program");
-    let lighting = [
-        "normal_matrix",
-        "eye_position",
-        "light_position",
-        "ambient_color",
-        "light_color",
-        "diffuse_color",
-        "specular_color",
-        "shininess",
-        "usampler",
-    ];
-    let uniforms = [&MATRICES[..], &SHADOW_TEST, &lighting].concat();
+    let uniforms = [&MATRICES[..], &SHADOW_TEST, &LIGHTING].concat();
     let program = Program::new(gl, shaders, "lighting.vert", "lighting.frag", &uniforms)?;
     name_object(ObjectKind::Program, program.handle.0.get(), "program");
     Ok(program)
@@ -117,6 +135,29 @@ pub fn visibility_program(gl: &glow::Context, shaders: &Shaders) -> Result<Progr
         "visibility_program",
     );
     Ok(program)
+}
+
+/// The second pass with the exact shadow test.
+pub fn exact_lighting_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the lighting program with the exact test");
+    exact_program(gl, shaders, "lighting_exact.frag", &LIGHTING)
+}
+
+/// The exact shadow test alone.
+pub fn exact_visibility_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the visibility program with the exact test");
+    exact_program(gl, shaders, "visibility_exact.frag", &[])
+}
+
+fn exact_program(
+    gl: &glow::Context,
+    shaders: &Shaders,
+    fragment: &str,
+    others: &[&'static str],
+) -> Result<Program> {
+    let fragments = [fragment, exact::SHADER];
+    let uniforms = [&MATRICES[..], &EXACT_TEST, &exact::LIGHT_BUFFER, others].concat();
+    Program::linked(gl, shaders, "lighting_exact.vert", &fragments, &uniforms)
 }
 
 fn unlit_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {

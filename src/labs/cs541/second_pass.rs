@@ -70,18 +70,28 @@ impl Cs541 {
     }
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
-        let _pass = gl::pass(gl, "second pass: using the shadow map");
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let _pass = gl::pass(
+            gl,
+            match exact {
+                Some(_) => "second pass: using the light buffer",
+                None => "second pass: using the shadow map",
+            },
+        );
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         self.select_window(gl, [red, green, blue, 1.0]);
         self.draw_sky(gl);
 
-        let program = &self.programs.lighting;
+        let program = exact.map_or(&self.programs.lighting, |exact| &exact.lighting);
         let eye = self.camera().eye;
         let Light {
             position, color, ..
         } = *self.light();
         unsafe { gl.use_program(Some(program.handle)) };
-        self.use_shadow_map(gl, program);
+        match exact {
+            Some(exact) => self.use_light_buffer(gl, exact, program),
+            None => self.use_shadow_map(gl, program),
+        }
         program.set(gl, "usampler", 0);
         program.set(gl, "eye_position", DVec3::ZERO);
         program.set(gl, "light_position", position - eye);
@@ -102,6 +112,9 @@ impl Cs541 {
             }
             let model = self.model_from(eye, object);
             program.set(gl, "model_matrix", model);
+            if let Some(exact) = exact {
+                self.set_exact_test(gl, exact, program, index);
+            }
             program.set(
                 gl,
                 "normal_matrix",
@@ -115,18 +128,26 @@ impl Cs541 {
     }
 
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
-        if self.visibility.is_none() {
+        if self.visibility.is_none() && !self.is_exact() {
             self.visibility = Some(visibility_program(gl, &self.shaders)?);
         }
-        let program = self.visibility.as_ref().expect("made above");
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let visibility = exact.map(|exact| &exact.visibility);
+        let program = visibility.or(self.visibility.as_ref()).expect("made above");
         let _pass = gl::pass(gl, "second pass: the shadow test alone");
         self.select_window(gl, [1.0; 4]);
         unsafe { gl.use_program(Some(program.handle)) };
-        self.use_shadow_map(gl, program);
+        match exact {
+            Some(exact) => self.use_light_buffer(gl, exact, program),
+            None => self.use_shadow_map(gl, program),
+        }
         let eye = self.camera().eye;
-        for (mesh, object) in self.meshes.iter().zip(&self.scene.objects) {
+        for (index, object) in self.scene.objects.iter().enumerate() {
             program.set(gl, "model_matrix", self.model_from(eye, object));
-            mesh.draw(gl);
+            if let Some(exact) = exact {
+                self.set_exact_test(gl, exact, program, index);
+            }
+            self.meshes[index].draw(gl);
         }
         Ok(())
     }
@@ -154,7 +175,15 @@ impl Cs541 {
         program.set(gl, "epsilon", self.epsilon());
         program.set(gl, "shadows", i32::from(self.settings.switch("shadows")));
         program.set(gl, "beam", self.beam());
+        self.set_camera(gl, program);
 
+        let light = self.light_camera();
+        let view = camera::view(light.eye - self.camera().eye, light.look, light.rup);
+        program.set(gl, "shadow_persp_matrix", light.perspective(1.0));
+        program.set(gl, "shadow_view_matrix", view);
+    }
+
+    pub(super) fn set_camera(&self, gl: &glow::Context, program: &Program) {
         let camera = self.camera();
         program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
         program.set(
@@ -162,11 +191,6 @@ impl Cs541 {
             "view_matrix",
             camera::view(DVec3::ZERO, camera.look, camera.rup),
         );
-
-        let light = self.light_camera();
-        let view = camera::view(light.eye - camera.eye, light.look, light.rup);
-        program.set(gl, "shadow_persp_matrix", light.perspective(1.0));
-        program.set(gl, "shadow_view_matrix", view);
     }
 
     /// Object space to a world whose origin is at `eye`.

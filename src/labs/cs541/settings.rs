@@ -96,6 +96,11 @@ pub const SETTINGS: &[Setting] = &[
         help: "first pass: a second copy of each Plane, a small amount behind it and with the opposite orientation",
     },
     Setting {
+        name: "shadow_test",
+        kind: Kind::Choice(&["handout", "exact"]),
+        help: "the handout's shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
+    },
+    Setting {
         name: "shadows",
         kind: Kind::Switch { default: true },
         help: "the two-pass shadow map; off: local illumination alone",

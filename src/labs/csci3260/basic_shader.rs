@@ -25,20 +25,24 @@ pub const SHADOW_TEST: [&str; 8] = [
     "lightInvDir",
 ];
 
+/// Uniforms of the shading.
+pub const SHADING: [&str; 8] = [
+    "M",
+    "specularVisibility",
+    "objTexture",
+    "materialColor",
+    "MaterialSpecularColor",
+    "AmbientLightColor",
+    "DiffuseLightColor",
+    "SpecularLightColor",
+];
+
+pub const VERTEX_SHADER: &str = "VertexShaderCode.glsl";
+
 #[doc(alias = "installShaders")]
 pub fn install_shaders(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
     let _pass = gl::pass(gl, "set-up: installShaders");
-    let shading = [
-        "M",
-        "specularVisibility",
-        "objTexture",
-        "materialColor",
-        "MaterialSpecularColor",
-        "AmbientLightColor",
-        "DiffuseLightColor",
-        "SpecularLightColor",
-    ];
-    let program = with_shadow_test(gl, shaders, "FragmentShaderCode.glsl", &shading)?;
+    let program = with_shadow_test(gl, shaders, "FragmentShaderCode.glsl", &SHADING)?;
     name_object(ObjectKind::Program, program.handle.0.get(), "programID");
     Ok(program)
 }
@@ -51,7 +55,7 @@ pub fn with_shadow_test(
     others: &[&'static str],
 ) -> Result<Program> {
     let uniforms = [&SHADOW_TEST[..], others].concat();
-    Program::new(gl, shaders, "VertexShaderCode.glsl", fragment, &uniforms)
+    Program::new(gl, shaders, VERTEX_SHADER, fragment, &uniforms)
 }
 
 /// [−1, 1] to [0, 1], column by column: the diagonal divides by 2, the lower row translates.
@@ -102,12 +106,25 @@ impl Csci3260 {
 
     /// The second half of `paintGL`: "using the basic shader".
     pub(super) fn use_shadow_map(&self, gl: &glow::Context) {
-        let _pass = gl::pass(gl, "using the shadow map");
-        let program = &self.programs.basic;
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let _pass = gl::pass(
+            gl,
+            match exact {
+                Some(_) => "using the light buffer",
+                None => "using the shadow map",
+            },
+        );
+        let program = exact.map_or(&self.programs.basic, |exact| &exact.basic);
         let [red, green, blue] = self.scene().clear.as_vec3().to_array();
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [red, green, blue, 1.0]);
-        self.set_shadow_test(gl, program);
+        match exact {
+            Some(exact) => {
+                exact.test.bind(gl, program);
+                program.set(gl, "lightInvDir", self.light_inv_dir());
+            }
+            None => self.set_shadow_test(gl, program),
+        }
         program.set(gl, "objTexture", 0);
         let specular_visibility = self.settings.number("specular_visibility");
         program.set(gl, "specularVisibility", specular_visibility);
@@ -122,7 +139,13 @@ impl Csci3260 {
             if bound.replace(texture) != Some(texture) {
                 unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
             }
-            self.set_transformations(gl, program, object);
+            match exact {
+                Some(exact) => {
+                    self.set_exact_test(gl, exact, program, mesh.object);
+                    program.set(gl, "normalMatrix", self.normal_matrix(object));
+                }
+                None => self.set_transformations(gl, program, object),
+            }
             program.set(gl, "M", self.model_from_eye(object));
             program.set(gl, "materialColor", object.material.diffuse);
             program.set(gl, "MaterialSpecularColor", object.material.specular);
@@ -132,6 +155,10 @@ impl Csci3260 {
 
     /// The shadow test alone.
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
+        if let Some(exact) = self.exact.as_ref().filter(|_| self.is_exact()) {
+            self.draw_exact_visibility(gl, exact);
+            return Ok(());
+        }
         if self.visibility.is_none() {
             let _pass = gl::pass(gl, "set-up: the visibility program");
             self.visibility = Some(with_shadow_test(gl, &self.shaders, "visibility.frag", &[])?);
@@ -169,7 +196,17 @@ impl Csci3260 {
         program.set(gl, "stage", self.stage_number());
         program.set(gl, "biasValue", self.settings.number("bias"));
         program.set(gl, "shadows", i32::from(self.settings.switch("shadows")));
-        program.set(gl, "lightInvDir", -self.light().direction.normalize());
+        program.set(gl, "lightInvDir", self.light_inv_dir());
+    }
+
+    /// Towards the light, of length 1.
+    fn light_inv_dir(&self) -> DVec3 {
+        -self.light().direction.normalize()
+    }
+
+    fn normal_matrix(&self, object: &Object) -> DMat3 {
+        let model = self.model_from_eye(object);
+        DMat3::from_mat4(model).inverse().transpose()
     }
 
     /// "Send the usual MVP and depth MVP to shader".
@@ -179,15 +216,10 @@ impl Csci3260 {
         program: &Program,
         object: &Object,
     ) {
-        let model = self.model_from_eye(object);
         let depth_bias_mvp = bias_matrix() * self.depth_mvp(object);
         program.set(gl, "MVP", self.mvp(object));
         program.set(gl, "DepthBiasMVP", depth_bias_mvp);
-        program.set(
-            gl,
-            "normalMatrix",
-            DMat3::from_mat4(model).inverse().transpose(),
-        );
+        program.set(gl, "normalMatrix", self.normal_matrix(object));
     }
 
     /// Each mesh of each model, with its present texture; `send` sends its transformation to the currently bound shader,

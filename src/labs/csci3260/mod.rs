@@ -6,6 +6,7 @@
 //! | Rendering the shadow map | `shadow_map.rs`; `glsl/csci3260/ShadowVertexShader.glsl`, `ShadowFragmentShader.glsl` |
 //! | Using the shadow map | `basic_shader.rs`; `glsl/csci3260/VertexShaderCode.glsl`, `FragmentShaderCode.glsl` |
 //! | Shadow acne, Peter Panning, PCF | the settings `stage`, `bias`, `scene` |
+//! | no part of them: a test without a map | `exact_test.rs`; `glsl/csci3260/FragmentShaderCode_exact.glsl` |
 //!
 //! Chosen, because the slides leave it open: the clear color, the light's colors, the steps of the keys, the room, and
 //! the taps of PCF, of which the slides have only the name: the mean of five.
@@ -14,6 +15,7 @@
 #![allow(unsafe_code)]
 
 mod basic_shader;
+mod exact_test;
 mod explain;
 mod models;
 mod scene;
@@ -29,10 +31,12 @@ use glow::HasContext;
 use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
 use crate::picture::Projection;
 use crate::scene::{Camera, Light, Object, Scene, rotate};
-use crate::{Error, Result};
+use crate::shadow_tests;
+use exact_test::Exact;
 use models::Model;
 use settings::{DOLPHIN_STEP, DOLPHIN_TURN, DRAG_STEP, INTENSITY_STEP, KEYS, SETTINGS};
 use shadow_map::{MapInputs, RenderTarget};
@@ -78,6 +82,15 @@ const SHADERS: &[(&str, &str)] = &[
         "explain.frag",
         include_str!("../../../glsl/csci3260/explain.frag"),
     ),
+    (
+        "FragmentShaderCode_exact.glsl",
+        include_str!("../../../glsl/csci3260/FragmentShaderCode_exact.glsl"),
+    ),
+    (
+        "visibility_exact.frag",
+        include_str!("../../../glsl/csci3260/visibility_exact.frag"),
+    ),
+    shadow_tests::SHADERS[0],
 ];
 
 /// The numbers of the two scenes, the course's (or a student's) and the room.
@@ -107,6 +120,8 @@ struct Csci3260 {
     /// What the shadow map was drawn from, while that still holds.
     drawn: Option<MapInputs>,
 
+    /// What only the setting shadow_test asks for.
+    exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
     explainer: Option<Program>,
@@ -150,6 +165,7 @@ impl Csci3260 {
             largest_map,
             target,
             drawn: None,
+            exact: None,
             visibility: None,
             explainer: None,
         };
@@ -218,6 +234,20 @@ impl Csci3260 {
     #[doc(alias = "paintGL")]
     fn paint_gl(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.send_data_to_opengl(gl)?;
+        if self.is_exact() {
+            self.prepare_exact_test(gl)?;
+        } else {
+            self.prepare_shadow_map(gl)?;
+        }
+        match show {
+            Show::Picture => self.use_shadow_map(gl),
+            Show::Visibility { .. } => self.draw_visibility(gl)?,
+        }
+        Ok(())
+    }
+
+    /// The shadow map, rendered anew if the last one does not serve on.
+    fn prepare_shadow_map(&mut self, gl: &glow::Context) -> Result<()> {
         let size = map_size(self.largest_map, &self.settings);
         if size != self.target.size {
             self.target.delete(gl);
@@ -231,10 +261,6 @@ impl Csci3260 {
                 self.render_shadow_map(gl, &inputs);
                 self.drawn = Some(inputs);
             }
-        }
-        match show {
-            Show::Picture => self.use_shadow_map(gl),
-            Show::Visibility { .. } => self.draw_visibility(gl)?,
         }
         Ok(())
     }
@@ -330,6 +356,12 @@ impl Lab for Csci3260 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::install(gl, &self.shaders)?;
+        if let Some(exact) = &mut self.exact {
+            exact.reload(gl, &self.shaders).inspect_err(|_| {
+                programs.basic.delete(gl);
+                programs.shadow_map.delete(gl);
+            })?;
+        }
         let old = std::mem::replace(&mut self.programs, programs);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
         let others = made_on_demand.iter().flatten();
@@ -342,11 +374,7 @@ impl Lab for Csci3260 {
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
+        self.check_map()?;
         let Light { near, far, .. } = *self.light();
         Ok(ShadowTexture {
             texture: self.target.depth_texture,

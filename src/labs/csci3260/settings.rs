@@ -69,6 +69,11 @@ pub const SETTINGS: &[Setting] = &[
         help: "width and height of the depth texture",
     },
     Setting {
+        name: "shadow_test",
+        kind: Kind::Choice(&["handout", "exact"]),
+        help: "the slides' shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
+    },
+    Setting {
         name: "shadows",
         kind: Kind::Switch { default: true },
         help: "shadow mapping; off: visibility is 1 everywhere",

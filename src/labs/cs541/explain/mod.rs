@@ -40,6 +40,11 @@ impl Cs541 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
+        if self.is_exact() {
+            return Err(Error::usage(
+                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
+            ));
+        }
         if let Probe::Pixel([x, y]) = probe
             && (x >= self.size[0] || y >= self.size[1])
         {

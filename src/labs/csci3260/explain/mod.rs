@@ -64,6 +64,11 @@ impl Csci3260 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
+        if self.is_exact() {
+            return Err(Error::usage(
+                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
+            ));
+        }
         let [width, height] = self.size;
         match probe {
             Probe::Pixel([x, y]) if x >= width || y >= height => Err(Error::usage(format!(

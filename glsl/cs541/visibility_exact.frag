@@ -1,0 +1,29 @@
+#version 330 core
+// The shadow test of lighting_exact.frag alone: 1 is lit, 0 is in shadow. A test holds the two files equal. What faces
+// away from the light is asked about here, too, and is in shadow.
+
+in vec3 position_lcs;
+
+// The object's first triangle, as the light buffer counts.
+uniform int first_triangle;
+
+const int NO_BEAM = 0, RECTANGULAR = 1, CIRCULAR = 2;
+uniform int beam;
+
+out vec4 frag_color;
+
+bool is_in_shadow_of_source(vec3 position_lcs, bool all_directions, int triangle);
+
+void main(void)
+{
+    bool inside_beam = position_lcs.z < 0
+        && abs(position_lcs.x) <= -position_lcs.z && abs(position_lcs.y) <= -position_lcs.z;
+    if (beam == CIRCULAR)
+        inside_beam = inside_beam && length(position_lcs.xy) <= -position_lcs.z;
+
+    bool in_shadow = false;
+    if (inside_beam || beam == NO_BEAM)
+        in_shadow = is_in_shadow_of_source(position_lcs, beam == NO_BEAM, first_triangle + gl_PrimitiveID);
+
+    frag_color = vec4(vec3(in_shadow ? 0 : 1), 1);
+}

@@ -1,0 +1,22 @@
+#version 330 core
+// The shadow test of FragmentShaderCode_exact.glsl alone: 1 is lit, 0 is in full shadow, where `visibility` is 0.5. A
+// test holds the two files equal. What faces away from the light is asked about here, too, and is in shadow.
+
+// In the light's coordinate system: the light shines along -z.
+in vec4 ShadowCoord;
+
+// The model's first triangle, as the light buffer counts.
+uniform int firstTriangle;
+
+out vec4 color;
+
+bool is_in_shadow_of_rays(vec3 position_lcs, int triangle);
+
+void main()
+{
+    float visibility = 1.0;
+    if (is_in_shadow_of_rays(ShadowCoord.xyz, firstTriangle + gl_PrimitiveID))
+        visibility = 0.5;
+
+    color = vec4(vec3((visibility - 0.5) / 0.5), 1);
+}

@@ -1,0 +1,42 @@
+//! The exact test: a light buffer (Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", 1986).
+//!
+//! A grid of cells lies over the light's view. Each cell lists the triangles that its rays can meet; a fragment looks
+//! its cell up and tests its own ray to the light against them. There is no map, no bias and no resolution.
+//!
+//! | step | here |
+//! |---|---|
+//! | which vertices are one, which edges two triangles share; once for each mesh | `topology.rs` |
+//! | where the light is, and along which axes it looks | `space.rs` |
+//! | what a ray is tested against: three planes through the edges, and the triangle's own | `caster.rs` |
+//! | which triangles can cast onto something | `builder.rs` |
+//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `polygon.rs` |
+//! | the buffer textures and the uniforms | `gpu.rs` |
+//! | the test | `glsl/shadow_tests/exact.frag` |
+//!
+//! Everything is composed in f64 relative to the light, where the light is the origin or, for parallel rays, the scene's
+//! centre is; lengths are in units of the scene's size. It is rounded to f32 once, when it is stored. So it is the same
+//! wherever the scene lies and however large it is.
+//!
+//! What faces away from the light: a triangle that casts is in its own shadow there, so visibility is 0; one that casts
+//! on nothing (a floor under everything, seen from below) is not asked about, and visibility is 1. In the picture both
+//! are as dark as the lab's shading makes them; only where smooth normals face the light and their triangle does not, the
+//! first rule is seen: without it the terminator would be lit in patches.
+//!
+//! What it cannot see: a camera inside a closed solid, which the light is outside of, sees what else is in there lit.
+//! Of a closed solid only the far side casts, and there it has none behind it.
+
+mod builder;
+mod caster;
+mod gpu;
+mod grid;
+mod polygon;
+mod space;
+mod topology;
+
+pub use builder::{Builder, LightBuffer, Placed};
+pub use gpu::{ExactTest, LIGHT_BUFFER};
+pub use grid::{Cell, Layout};
+pub use space::{LightSpace, Rays};
+
+/// The file of [`super::SHADERS`].
+pub const SHADER: &str = "shadow_tests/exact.frag";

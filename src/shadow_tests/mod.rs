@@ -1,0 +1,15 @@
+//! The shadow tests that no handout has, each with its GLSL and its reason. A lab links one with its own lighting, in
+//! place of the handout's test, where its setting `shadow_test` asks for it.
+//!
+//! | `shadow_test` | |
+//! |---|---|
+//! | `handout` | the handout's own, in the lab |
+//! | `exact` | [`exact`]: every ray to the light against the triangles that it can meet |
+
+pub mod exact;
+
+/// The tests as GLSL functions: fragment shader files without a `main`, for a lab's [`crate::gl::Shaders`].
+pub const SHADERS: &[(&str, &str)] = &[(
+    exact::SHADER,
+    include_str!("../../glsl/shadow_tests/exact.frag"),
+)];

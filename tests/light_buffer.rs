@@ -1,0 +1,242 @@
+//! The light buffer against the truth, without a GPU: the shader's steps in f32, at every point that the truth has seen.
+//! Beside the labels, the number of triangles that a point is tested against is checked: a builder that keeps the wrong
+//! side of a solid may still be right everywhere, and is slow.
+
+mod hard;
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+use hard::{Case, cases};
+use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
+use shadowlab::scene::Scene;
+use shadowlab::shadow_tests::exact::{Builder, LightBuffer, Placed, Rays};
+
+const SIZE: [u32; 2] = [320, 240];
+
+fn placed(scene: &Scene) -> Vec<Placed> {
+    let objects = scene.objects.iter();
+    objects
+        .map(|object| Placed {
+            mesh: object.mesh.clone(),
+            model: object.model(0.0),
+            casts: object.casts,
+        })
+        .collect()
+}
+
+/// Whether a point of a triangle is in shadow, and how many triangles were asked: `exact.frag`, line by line.
+fn test(light_buffer: &LightBuffer, position_lcs: Vec3, triangle: u32) -> (bool, usize) {
+    let rays = light_buffer.space.rays;
+    let (face, place, nearness, ray, reach) = match rays {
+        Rays::Parallel => {
+            let ray = position_lcs.xy().extend(-1.0);
+            (0, position_lcs.xy(), position_lcs.z, ray, position_lcs.z)
+        }
+        Rays::Spot | Rays::Point => {
+            let size = position_lcs.abs();
+            let axis = match rays {
+                Rays::Point if size.x.max(size.y) > size.z => usize::from(size.x <= size.y),
+                _ => 2,
+            };
+            let turned = match axis {
+                0 => position_lcs.yzx(),
+                1 => position_lcs.zxy(),
+                _ => position_lcs,
+            };
+            let face = match rays {
+                Rays::Point => 2 * axis + usize::from(turned.z < 0.0),
+                _ => 0,
+            };
+            let nearness = 1.0 / turned.z.abs();
+            (face, turned.xy() * nearness, nearness, position_lcs, 1.0)
+        }
+    };
+    let layout = light_buffer.layout;
+    let within = (place - layout.least.as_vec2()) * layout.scale.as_vec2();
+    let side = layout.side as f32;
+    if within.cmplt(Vec2::ZERO).any() || within.cmpgt(Vec2::splat(side)).any() {
+        return (false, 0);
+    }
+    let [column, row] = within
+        .to_array()
+        .map(|place| (place as usize).min(layout.side as usize - 1));
+    let cell =
+        light_buffer.cells[(face * layout.side as usize + row) * layout.side as usize + column];
+    if nearness > cell.lit_above {
+        return (false, 0);
+    }
+    if nearness < cell.dark_below {
+        return (true, 0);
+    }
+    let list = cell.first as usize..(cell.first + cell.count) as usize;
+    for (tests, index) in (1..).zip(list) {
+        let caster = 4 * light_buffer.lists[index] as usize;
+        let plane = |i: usize| Vec4::from_array(light_buffer.casters[caster + i]);
+        let number = plane(0).w as i64;
+        if number.unsigned_abs() == u64::from(triangle) + 1 {
+            if number < 0 {
+                return (true, tests);
+            }
+            continue;
+        }
+        let product = |i: usize| plane(i).xyz().dot(ray);
+        if product(0) > reach && (1..4).all(|i| product(i) >= 0.0) {
+            return (true, tests);
+        }
+    }
+    (false, cell.count as usize)
+}
+
+/// How a light buffer does on a scene.
+#[derive(Debug, Default)]
+struct Score {
+    valid: usize,
+    shadowed: usize,
+    ambiguous: usize,
+    false_shadow: usize,
+    false_light: usize,
+    /// For each valid pixel.
+    tests: f64,
+}
+
+fn score(scene: &Scene, truth: &Truth, light_buffer: &LightBuffer) -> Score {
+    let mut score = Score::default();
+    let eye = scene.camera.eye;
+    for (i, seen) in truth.seen.iter().enumerate() {
+        let Some((triangle, point)) = seen else {
+            continue;
+        };
+        if truth.labels[i] == Label::NotValid {
+            continue;
+        }
+        score.valid += 1;
+        score.ambiguous += usize::from(truth.ambiguous[i]);
+        let position_lcs = light_buffer.space.from_world(*point + eye).as_vec3();
+        let (shadowed, tests) = test(light_buffer, position_lcs, *triangle);
+        score.tests += tests as f64;
+        let expected = truth.labels[i] == Label::Shadowed;
+        score.shadowed += usize::from(expected);
+        if !truth.ambiguous[i] {
+            score.false_shadow += usize::from(shadowed && !expected);
+            score.false_light += usize::from(!shadowed && expected);
+        }
+    }
+    score.tests /= score.valid as f64;
+    score
+}
+
+#[test]
+fn no_pixel_is_wrong_and_few_triangles_are_asked() {
+    let mut failures = Vec::new();
+    for Case {
+        name,
+        scene,
+        most_tests,
+    } in cases()
+    {
+        let truth = TruthRays::new(&scene, 0).truth(SIZE);
+        let mut builder = Builder::default();
+        let light_buffer = builder.build(&scene.lights[0], &placed(&scene));
+        let score = score(&scene, &truth, light_buffer);
+        println!(
+            "{name:30} {:7} valid {:6} dark {:4} ambiguous, wrong {} {}, tests {:.3}, casters {}, entries {}",
+            score.valid,
+            score.shadowed,
+            score.ambiguous,
+            score.false_shadow,
+            score.false_light,
+            score.tests,
+            light_buffer.casters.len() / 4,
+            light_buffer.lists.len(),
+        );
+        if score.false_shadow + score.false_light > 0 || score.tests > most_tests {
+            failures.push(format!("{name}: {score:?}"));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+fn copy(built: &LightBuffer) -> LightBuffer {
+    LightBuffer {
+        space: built.space,
+        layout: built.layout,
+        cells: built.cells.clone(),
+        lists: built.lists.clone(),
+        casters: built.casters.clone(),
+        first_triangles: built.first_triangles.clone(),
+        triangle_count: built.triangle_count,
+    }
+}
+
+/// The controls, on a scene with solids and one with sheets: a light buffer that is wrong in one way scores badly.
+#[test]
+fn a_wrong_light_buffer_scores_badly() {
+    let wrong = |name: &str, edit: &dyn Fn(&Scene) -> Scene, spoil: &dyn Fn(&mut LightBuffer)| {
+        let case = cases().into_iter().find(|case| case.name == name);
+        let scene = case.expect("there is such a case").scene;
+        let truth = TruthRays::new(&scene, 0).truth(SIZE);
+        let mut builder = Builder::default();
+        let built = builder.build(&scene.lights[0], &placed(&edit(&scene)));
+        let mut spoilt = copy(built);
+        spoil(&mut spoilt);
+        let score = score(&scene, &truth, &spoilt);
+        println!("{name}: {score:?}");
+        [score.false_shadow, score.false_light]
+    };
+    let as_it_is = |scene: &Scene| scene.clone();
+    let turned = |scene: &Scene| {
+        let mut scene = scene.clone();
+        for object in &mut scene.objects {
+            for face in &mut Arc::make_mut(&mut object.mesh).faces {
+                face.swap(1, 2);
+            }
+        }
+        scene
+    };
+    let move_planes = |by: f32| {
+        move |buffer: &mut LightBuffer| {
+            for [x, y, z, _] in buffer.casters.iter_mut().step_by(4) {
+                (*x, *y, *z) = (*x * by, *y * by, *z * by);
+            }
+        }
+    };
+    for name in ["solids, spot", "solids, point", "solids, sun"] {
+        // The controls of the controls.
+        assert_eq!(wrong(name, &as_it_is, &|_| ()), [0, 0], "{name}");
+        // The side that faces the light in place of the one that faces away.
+        let [shadow, _] = wrong(name, &turned, &|_| ());
+        assert!(shadow > 1000, "{name}: {shadow}");
+        // The lists of other cells.
+        let [_, light] = wrong(name, &as_it_is, &|buffer| buffer.lists.rotate_left(1000));
+        assert!(light > 20, "{name}: {light}");
+    }
+    // A tolerance on the wrong side: neighbours on an open surface shadow each other.
+    for name in ["winding, spot", "winding, point"] {
+        let [shadow, _] = wrong(name, &as_it_is, &move_planes(1.01));
+        assert!(shadow > 20, "{name}: {shadow}");
+        let [_, light] = wrong(name, &as_it_is, &move_planes(0.9));
+        assert!(light > 20, "{name}: {light}");
+    }
+}
+
+/// The control of the number of triangles that are asked: without what is known of whole cells every list is gone
+/// through, and no label tells.
+#[test]
+fn what_is_known_of_cells_saves_most_tests() {
+    let scene = hard::five_shapes();
+    let truth = TruthRays::new(&scene, 0).truth(SIZE);
+    let mut builder = Builder::default();
+    let built = builder.build(&scene.lights[0], &placed(&scene));
+    let mut blind = copy(built);
+    for cell in &mut blind.cells {
+        cell.lit_above = f32::INFINITY;
+        cell.dark_below = f32::NEG_INFINITY;
+    }
+    let [informed, blind] = [built, &blind].map(|buffer| score(&scene, &truth, buffer));
+    assert_eq!(blind.false_shadow + blind.false_light, 0);
+    assert!(
+        blind.tests > 10.0 * informed.tests,
+        "{blind:?} {informed:?}"
+    );
+}
