@@ -175,15 +175,22 @@ fn taken_apart(compared: &Compared, summaries: &[Summary]) -> Markup {
         .find(|row| row.differences == ["shadows=off"]);
     let lookups = off.map(|off| {
         let rounds = compared.rows[0].times.iter().zip(&off.times);
-        Sample::new(rounds.map(|(with, without)| with.lighting - without.lighting)).median()
+        Sample::new(rounds.map(|(with, without)| with.lighting - without.lighting))
     });
     html! {
         p {
             "The handout's frame, taken apart: shadow pass " (words::milliseconds(handouts.shadow_pass[0])) " ms, "
             @match lookups {
                 Some(lookups) => {
-                    "look-ups " (words::milliseconds(lookups)) " ms, the rest of the shading "
-                    (words::milliseconds(handouts.lighting[0] - lookups)) " ms, "
+                    "look-ups " (words::milliseconds(lookups.median())) " ms ("
+                    @match lookups.interval_95() {
+                        Some([low, high]) => {
+                            "95 %: " (words::milliseconds(low)) " to " (words::milliseconds(high))
+                        }
+                        None => { "too few rounds to be sure" }
+                    }
+                    "), the rest of the shading "
+                    (words::milliseconds(handouts.lighting[0] - lookups.median())) " ms, "
                 }
                 None => { "lighting with its look-ups " (words::milliseconds(handouts.lighting[0])) " ms, " }
             }

@@ -14,8 +14,8 @@ use crate::labs::{Kind, Setting};
 const SIZE: (u32, u32) = (860, 500);
 
 /// Told apart by the colour-blind, too: Okabe and Ito (2008), without their yellow, which white paper swallows; then a
-/// grey and a brown.
-const COLORS: [RGBColor; 9] = [
+/// grey, a brown and a dark purple.
+const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -25,6 +25,7 @@ const COLORS: [RGBColor; 9] = [
     RGBColor(0, 0, 0),
     RGBColor(140, 140, 140),
     RGBColor(130, 70, 20),
+    RGBColor(90, 40, 140),
 ];
 
 /// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, and the axis says 0.

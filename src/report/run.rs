@@ -72,7 +72,7 @@ struct Running {
 }
 
 /// Setting up a row and casting its truth takes about as long as this many visits.
-const PREPARATION: u64 = 10;
+const PREPARATION: u64 = 2;
 
 /// How much there is to do, in the steps of [`measure`]'s progress.
 pub fn steps(rows: usize, rounds: usize) -> u64 {

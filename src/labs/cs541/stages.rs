@@ -75,7 +75,7 @@ pub const COMPARISONS: &[Comparison] = &[
             &["remedy=culling", "second_plane=on"],
             &["epsilon=0.0001,0.01"],
             &["filter=nearest"],
-            &["depth_format=16,24,32F"],
+            &["depth_format=16,32F"],
             &["shadows=off"],
         ],
     },
