@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 /// A uniform of one program.
@@ -38,6 +38,7 @@ pub enum Value {
     Mat4([f32; 16]),
     Mat3([f32; 9]),
     Vec3([f32; 3]),
+    Vec4([f32; 4]),
     Float(f32),
     /// Samplers (their texture unit), choices and, as 0 or 1, `bool`s.
     Int(i32),
@@ -50,6 +51,7 @@ impl Value {
                 Self::Mat4(columns) => gl.uniform_matrix_4_f32_slice(location, false, &columns),
                 Self::Mat3(columns) => gl.uniform_matrix_3_f32_slice(location, false, &columns),
                 Self::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),
+                Self::Vec4([x, y, z, w]) => gl.uniform_4_f32(location, x, y, z, w),
                 Self::Float(value) => gl.uniform_1_f32(location, value),
                 Self::Int(value) => gl.uniform_1_i32(location, value),
             }
@@ -72,6 +74,12 @@ impl From<DMat3> for Value {
 impl From<DVec3> for Value {
     fn from(vector: DVec3) -> Self {
         Self::Vec3(vector.as_vec3().to_array())
+    }
+}
+
+impl From<DVec4> for Value {
+    fn from(vector: DVec4) -> Self {
+        Self::Vec4(vector.as_vec4().to_array())
     }
 }
 

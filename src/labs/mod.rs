@@ -6,6 +6,7 @@
 pub mod cmsc23700;
 pub mod cs541;
 pub mod csci3260;
+pub mod eecs487;
 mod exact;
 mod explanation;
 mod keys;
@@ -22,7 +23,7 @@ use crate::scene::Scene;
 use crate::{Error, Result, error};
 
 /// Every lab, in the order in which they are listed.
-pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &csci3260::HANDOUT];
+pub static LABS: &[&Handout] = &[&cs541::HANDOUT, &eecs487::HANDOUT, &csci3260::HANDOUT];
 
 /// What is known of a lab before there is a context.
 pub struct Handout {
