@@ -70,11 +70,15 @@ impl Mesh {
     }
 
     pub fn draw(&self, gl: &glow::Context) {
-        unsafe { gl.bind_vertex_array(Some(self.vertex_array)) };
+        self.bind(gl);
         self.draw_again(gl);
     }
 
-    /// Draws the mesh that was drawn last, once more.
+    pub fn bind(&self, gl: &glow::Context) {
+        unsafe { gl.bind_vertex_array(Some(self.vertex_array)) };
+    }
+
+    /// Draws the mesh that was drawn or bound last.
     pub fn draw_again(&self, gl: &glow::Context) {
         unsafe { gl.draw_elements(glow::TRIANGLES, self.index_count, glow::UNSIGNED_INT, 0) };
     }

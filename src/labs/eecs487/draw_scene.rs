@@ -105,6 +105,7 @@ impl Eecs487 {
         let program = &self.programs.wall;
         unsafe { gl.use_program(Some(program.handle)) };
         set_light(gl, program, look);
+        self.bind_wall(gl);
         for wall in self.shown() {
             self.set_wall(gl, program, &view, wall, look);
             self.draw_wall(gl);
@@ -132,7 +133,9 @@ impl Eecs487 {
                 gl.disable(glow::STENCIL_TEST);
             }
         }
-        self.draw_occluders(gl, &self.programs.lighting, &view, look);
+        let program = &self.programs.lighting;
+        unsafe { gl.use_program(Some(program.handle)) };
+        self.draw_occluders(gl, program, &view, look);
     }
 
     /// Section 2: three steps of one call each leave 1 in the stencil buffer wherever the wall is, and let the shadows
@@ -150,6 +153,7 @@ impl Eecs487 {
             gl.stencil_func(glow::ALWAYS, 1, !0);
             // 2. Replace the contents with the reference value wherever a fragment of the wall is drawn.
             gl.stencil_op(glow::KEEP, glow::KEEP, glow::REPLACE);
+            self.bind_wall(gl);
             self.draw_wall(gl);
             // 3. Accept a fragment only if it is within the boundaries of the wall.
             gl.stencil_func(glow::EQUAL, 1, !0);
@@ -164,27 +168,29 @@ impl Eecs487 {
     /// Each occluder, projected onto the wall.
     #[doc(alias = "drawShadows")]
     fn draw_shadows(&self, gl: &glow::Context, view: &View, wall: &Wall) {
+        let program = &self.programs.shadow;
         for occluder in self.occluders.iter().filter(|o| o.object.casts) {
-            self.set_projection(gl, &self.programs.shadow, view, wall, occluder);
+            let (to_clip, wall) = self.projection(view, wall, occluder);
+            program.set(gl, "modelViewProjection", to_clip);
+            program.set(gl, "wall", wall);
             occluder.buffers.draw(gl);
         }
     }
 
-    /// From the occluder's own space by way of `shadowMat` to clip space.
-    pub(super) fn set_projection(
+    /// From the occluder's own space by way of `shadowMat` to clip space, and the wall's implicit function there.
+    pub(super) fn projection(
         &self,
-        gl: &glow::Context,
-        program: &Program,
         view: &View,
         wall: &Wall,
         occluder: &Occluder,
-    ) {
+    ) -> (DMat4, DVec4) {
         let plane = plane_from(view.light, wall.plane);
         let shadow_mat = mult_shadow_mat(plane, DVec3::ZERO);
         let model = DMat4::from_translation(-view.light) * occluder.model(self.rotation);
-        let projected = view.from_light * shadow_mat * model;
-        program.set(gl, "modelViewProjection", projected);
-        program.set(gl, "wall", model.transpose() * plane);
+        (
+            view.from_light * shadow_mat * model,
+            model.transpose() * plane,
+        )
     }
 
     /// The sphere stays at the light's own place, whatever the jitter.
@@ -199,11 +205,18 @@ impl Eecs487 {
         self.sphere.draw(gl);
     }
 
-    /// The mesh of every wall, as `set_wall` has placed it. A tessellation of 0 leaves none.
+    /// All walls have one mesh. A tessellation of 0 leaves none.
+    pub(super) fn bind_wall(&self, gl: &glow::Context) {
+        if let Some(mesh) = &self.wall_mesh {
+            mesh.buffers.bind(gl);
+        }
+    }
+
+    /// The mesh, as `set_wall` has placed it.
     #[doc(alias = "drawWall")]
     pub(super) fn draw_wall(&self, gl: &glow::Context) {
         if let Some(mesh) = &self.wall_mesh {
-            mesh.buffers.draw(gl);
+            mesh.buffers.draw_again(gl);
         }
     }
 
@@ -215,7 +228,6 @@ impl Eecs487 {
         view: &View,
         look: &Look,
     ) {
-        unsafe { gl.use_program(Some(program.handle)) };
         set_light(gl, program, look);
         for occluder in &self.occluders {
             let model = occluder.model(self.rotation);

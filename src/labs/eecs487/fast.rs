@@ -101,6 +101,7 @@ impl Eecs487 {
         unsafe { gl.use_program(Some(program.handle)) };
         program.set(gl, "numJitters", self.num_jitters() as i32);
         set_light(gl, program, look);
+        self.bind_wall(gl);
         for (number, wall) in self.shown().enumerate() {
             unsafe { gl.stencil_func(glow::ALWAYS, wall_bit(number), ALL_BITS) };
             self.set_wall(gl, program, view, wall, look);
@@ -146,6 +147,7 @@ impl Eecs487 {
             gl.enable(glow::CLIP_DISTANCE0);
         }
         let lights = self.num_jitters();
+        let mut drawn: Option<&Occluder> = None;
         for index in 0..lights {
             let (mask, place) = (index / LIGHTS_PER_MASK, index % LIGHTS_PER_MASK);
             let depth = 1.0 - (number * lights + index + 1) as f64 / DEPTHS;
@@ -165,8 +167,19 @@ impl Eecs487 {
                 ..*view
             };
             for occluder in self.casters(wall) {
-                self.set_projection(gl, program, &jittered, wall, occluder);
-                occluder.buffers.draw(gl);
+                let (to_clip, wall) = self.projection(&jittered, wall, occluder);
+                if occluder.is_outside(to_clip) {
+                    continue;
+                }
+                program.set(gl, "modelViewProjection", to_clip);
+                program.set(gl, "wall", wall);
+                if !drawn
+                    .replace(occluder)
+                    .is_some_and(|last| std::ptr::eq(last, occluder))
+                {
+                    occluder.buffers.bind(gl);
+                }
+                occluder.buffers.draw_again(gl);
             }
         }
         unsafe {
