@@ -23,7 +23,7 @@ fn a_thousand_pixels_agree_with_the_picture_and_with_f64() {
         .zip(1..)
         .map(|(settings, seed)| explained("eecs487", settings, 170, seed))
         .sum();
-    assert!(surfaces > 400, "only {surfaces} pixels showed a wall");
+    assert!(surfaces > 350, "only {surfaces} pixels showed a wall");
 }
 
 /// GPU and f64 give the same answers away from the shadows' edges, and both answers are given.

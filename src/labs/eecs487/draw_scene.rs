@@ -119,9 +119,13 @@ impl Eecs487 {
                 gl.enable(glow::STENCIL_TEST);
             }
         }
-        for wall in self.shown() {
+        for (number, wall) in self.shown().enumerate() {
             program.set(gl, "planeDepth", self.plane_depth(&view, wall));
             if clipping {
+                // Before the first wall's shadows its mesh is bound already.
+                if number > 0 {
+                    self.bind_wall(gl);
+                }
                 self.populate_stencil(gl, &view, wall);
             }
             program.set(gl, "shadowColor", look.shadow(wall));
@@ -153,7 +157,6 @@ impl Eecs487 {
             gl.stencil_func(glow::ALWAYS, 1, !0);
             // 2. Replace the contents with the reference value wherever a fragment of the wall is drawn.
             gl.stencil_op(glow::KEEP, glow::KEEP, glow::REPLACE);
-            self.bind_wall(gl);
             self.draw_wall(gl);
             // 3. Accept a fragment only if it is within the boundaries of the wall.
             gl.stencil_func(glow::EQUAL, 1, !0);

@@ -161,11 +161,8 @@ impl Eecs487 {
             let mut bit = [0.0; 4];
             bit[place / 8] = f64::from(1 << (place % 8)) / 255.0;
             program.set(gl, "bit", DVec4::from_array(bit));
-            let jittered = View {
-                light: view.light + masks.jitters[index],
-                from_light: view.from_light * DMat4::from_translation(masks.jitters[index]),
-                ..*view
-            };
+            // Made as the handout's method makes it, to the last bit.
+            let jittered = self.view(view.light + masks.jitters[index]);
             for occluder in self.casters(wall) {
                 let (to_clip, wall) = self.projection(&jittered, wall, occluder);
                 if occluder.is_outside(to_clip) {

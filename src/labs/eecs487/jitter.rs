@@ -30,12 +30,12 @@ fn unit(counter: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Steps that never come near to where they were: the inverse of g, the root of x⁴ = x + 1, its square and its cube
-/// (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). The first place is the middle.
+/// Steps that never come near to where they were. A shadow's edge cuts the cube in two: of 1,500 triples that were tried,
+/// this one has 64 lights nearest to the share that lies on either side, over all ways to cut. (Roberts' triple, the powers
+/// of the inverse root of x⁴ = x + 1, is a quarter worse.) The first place is the middle.
 fn low_discrepancy(index: usize) -> DVec3 {
-    const G: f64 = 1.220_744_084_605_759_5;
-    let steps = dvec3(1.0 / G, 1.0 / (G * G), 1.0 / (G * G * G));
-    (DVec3::splat(0.5) + index as f64 * steps).fract()
+    const STEPS: DVec3 = dvec3(0.360_573, 0.767_450, 0.392_229);
+    (DVec3::splat(0.5) + index as f64 * STEPS).fract()
 }
 
 #[cfg(test)]

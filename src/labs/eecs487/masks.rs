@@ -68,7 +68,8 @@ impl Masks {
                 gl.renderbuffer_storage(glow::RENDERBUFFER, format, width, height);
                 Ok(buffer)
             };
-            let color = storage(glow::RGBA8)?;
+            // Blending in 8 bits would round three times.
+            let color = storage(glow::RGBA16F)?;
             let depth_stencil = storage(glow::DEPTH24_STENCIL8)?;
 
             let with_depth_and_stencil = |name: &str| -> Result<glow::Framebuffer> {
