@@ -39,6 +39,7 @@ const SET_UP: &[&str] = &[
     "GL_FRAMEBUFFER_COMPLETE = glCheckFramebufferStatus(GL_FRAMEBUFFER)",
     "glBindFramebuffer(GL_FRAMEBUFFER, 0)",
     "glGenVertexArrays(1, $quad)",
+    "glGenVertexArrays(1, $ramp)",
 ];
 
 /// `drawScene()`: the light, the wall, the stencil buffer in three steps, the shadows, the occluders.
@@ -77,14 +78,11 @@ const DRAW_SCENE: &[&str] = &[
 
 /// `fbo_accum(0.5)`: blending weighs the quad. Its color is set before the first one alone.
 const FBO_ACCUM: &[&str] = &[
-    "glDisable(GL_DEPTH_TEST)",
+    "glBindVertexArray($quad)",
     "glBindFramebuffer(GL_FRAMEBUFFER, $accum_fbo)",
     "glUseProgram($accum_program)",
     "glEnable(GL_BLEND)",
-    "glBindVertexArray($quad)",
     "glDrawArrays(GL_TRIANGLES, 0, 3)",
-    "glDisable(GL_BLEND)",
-    "glEnable(GL_DEPTH_TEST)",
 ];
 
 /// Without the uniforms, which the pictures test, and with the pass's own heading.
@@ -132,13 +130,14 @@ fn check_soft(lines: &[Line]) -> Result<(), String> {
     let render: &[&str] = &["glBindFramebuffer(GL_FRAMEBUFFER, $frame_fbo)"];
     let mut first = FBO_ACCUM.to_vec();
     first.insert(3, "glBlendColor(0, 0, 0, 0.5)");
+    let next: &[&str] = &["glDisable(GL_BLEND)"];
     let end: &[&str] = &[
         "glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0)",
         "glBlitFramebuffer(0, 0, 600, 600, 0, 0, 600, 600, GL_COLOR_BUFFER_BIT, GL_NEAREST)",
         "glBindFramebuffer(GL_READ_FRAMEBUFFER, 0)",
     ];
     let frame = [
-        begin, render, DRAW_SCENE, &first, render, DRAW_SCENE, FBO_ACCUM, end,
+        begin, render, DRAW_SCENE, &first, render, next, DRAW_SCENE, FBO_ACCUM, next, end,
     ]
     .concat();
     exactly(&the_end(in_pass(lines, "soft shadows")), &frame)?;

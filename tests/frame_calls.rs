@@ -83,9 +83,9 @@ const CASES: &[Case] = &[
     Case {
         lab: "eecs487",
         settings: &["soft_shadows=on", "soft_method=fast", "num_jitters=40"],
-        // Everything once. Torus and teapot are below the light, the teapot is left of it: for each light six shadows,
-        // on four walls; on each of these one quad.
-        passes: &[("soft shadows, fast", 1 + 5 + 2 + 40 * 6 + 4)],
+        // Everything once. The ceiling has nothing before it, and the right wall no teapot: seven shadows of each light
+        // on four walls, and a quad for each of these.
+        passes: &[("soft shadows, fast", 1 + 5 + 2 + 40 * 7 + 4)],
     },
 ];
 

@@ -71,6 +71,7 @@ impl Eecs487 {
             gl.stencil_op(glow::KEEP, glow::KEEP, glow::KEEP);
             // From here on the depth buffer is the masks'.
             gl.clear(glow::DEPTH_BUFFER_BIT);
+            gl.enable(glow::BLEND);
         }
         masks.bind(gl);
         for (number, wall) in self.shown().enumerate() {
@@ -88,7 +89,10 @@ impl Eecs487 {
             self.draw_masks(gl, masks, &view, number, wall);
             self.draw_penumbra(gl, masks, &view, wall, look);
         }
-        unsafe { gl.disable(glow::STENCIL_TEST) };
+        unsafe {
+            gl.disable(glow::BLEND);
+            gl.disable(glow::STENCIL_TEST);
+        }
         masks.to_window(gl);
     }
 
@@ -143,7 +147,6 @@ impl Eecs487 {
         unsafe {
             gl.use_program(Some(program.handle));
             gl.blend_func(glow::ONE, glow::ONE);
-            gl.enable(glow::BLEND);
             gl.enable(glow::CLIP_DISTANCE0);
         }
         let lights = self.num_jitters();
@@ -165,9 +168,6 @@ impl Eecs487 {
             let jittered = self.view(view.light + masks.jitters[index]);
             for occluder in self.casters(wall) {
                 let (to_clip, wall) = self.projection(&jittered, wall, occluder);
-                if occluder.is_outside(to_clip) {
-                    continue;
-                }
                 program.set(gl, "modelViewProjection", to_clip);
                 program.set(gl, "wall", wall);
                 if !drawn
@@ -222,7 +222,6 @@ impl Eecs487 {
         masks.draw_quad(gl);
         unsafe {
             gl.enable(glow::DEPTH_TEST);
-            gl.disable(glow::BLEND);
         }
     }
 }

@@ -20,18 +20,21 @@ pub struct FboAccum {
     /// The setting.
     pub accumulator: &'static str,
     pub programs: Rc<Accumulation>,
-    /// Has no attributes: the corners come from `gl_VertexID`.
+    /// These have no attributes: the corners come from `gl_VertexID`.
     quad: glow::VertexArray,
+    ramp: glow::VertexArray,
 
     // DEVIATES: two framebuffers, the course samples attachment 0 while it draws to attachment 1 of the same framebuffer,
     // which GL leaves undefined.
-    pub frame: Frame,
+    frame: Frame,
     sum: Sum,
+    /// Whether blending is enabled.
+    blends: Cell<bool>,
 }
 
 /// Attachment 0 of the course: what `drawScene()` draws.
-pub struct Frame {
-    pub framebuffer: glow::Framebuffer,
+struct Frame {
+    framebuffer: glow::Framebuffer,
     texture: glow::Texture,
     depth_stencil: glow::Renderbuffer,
 }
@@ -65,13 +68,17 @@ impl FboAccum {
             gl.bind_framebuffer(glow::FRAMEBUFFER, None);
             let quad = gl.create_vertex_array().map_err(Error::gl)?;
             name_object(ObjectKind::VertexArray, quad.0.get(), "quad");
+            let ramp = gl.create_vertex_array().map_err(Error::gl)?;
+            name_object(ObjectKind::VertexArray, ramp.0.get(), "ramp");
             Ok(Self {
                 size,
                 accumulator,
                 programs,
                 quad,
+                ramp,
                 frame,
                 sum,
+                blends: Cell::new(false),
             })
         }
     }
@@ -97,10 +104,24 @@ impl FboAccum {
         }
     }
 
+    /// The next render goes into the frame.
+    pub fn select_frame(&self, gl: &glow::Context) {
+        unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.frame.framebuffer)) };
+        self.blend_no_more(gl);
+    }
+
+    fn blend_no_more(&self, gl: &glow::Context) {
+        if self.blends.replace(false) {
+            unsafe { gl.disable(glow::BLEND) };
+        }
+    }
+
     /// `glAccum(GL_ACCUM, weight)`: adds the frame to the accumulation buffer.
+    ///
+    /// The accumulation buffer has no depth: the test lets everything pass.
     pub fn fbo_accum(&self, gl: &glow::Context, weight: f64) {
         unsafe {
-            gl.disable(glow::DEPTH_TEST);
+            gl.bind_vertex_array(Some(self.quad));
             match &self.sum {
                 Sum::Blended {
                     framebuffer,
@@ -114,19 +135,19 @@ impl FboAccum {
                         gl.blend_color(0.0, 0.0, 0.0, weight as f32);
                     }
                     gl.enable(glow::BLEND);
-                    self.draw_quad(gl);
-                    gl.disable(glow::BLEND);
+                    self.blends.set(true);
+                    gl.draw_arrays(glow::TRIANGLES, 0, 3);
                 }
                 Sum::Signed(sum) => {
                     sum.select_next(gl, &self.programs.accum_s8, weight);
-                    self.draw_quad(gl);
+                    gl.draw_arrays(glow::TRIANGLES, 0, 3);
                 }
             }
-            gl.enable(glow::DEPTH_TEST);
         }
     }
 
-    /// `glAccum(GL_RETURN, weight)`: moves the accumulated contents over to the window.
+    /// `glAccum(GL_RETURN, weight)`: moves the accumulated contents over to the window. The quad, the program and the
+    /// framebuffer of the last `fbo_accum` are still there.
     pub fn fbo_accum_return(&self, gl: &glow::Context, weight: f64) {
         let [width, height] = self.size.map(|n| n as i32);
         unsafe {
@@ -135,7 +156,8 @@ impl FboAccum {
                     if weight != 1.0 {
                         self.multiply(gl, weight);
                     }
-                    // The accumulation buffer is bound for reading and drawing.
+                    self.blend_no_more(gl);
+                    // For reading, the accumulation buffer stays bound.
                     gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, None);
                     gl.blit_framebuffer(
                         0,
@@ -155,7 +177,7 @@ impl FboAccum {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, None);
                     gl.disable(glow::DEPTH_TEST);
                     sum.select_return(gl, &self.programs.return_s8, weight);
-                    self.draw_quad(gl);
+                    gl.draw_arrays(glow::TRIANGLES, 0, 3);
                     gl.enable(glow::DEPTH_TEST);
                 }
             }
@@ -167,17 +189,15 @@ impl FboAccum {
         unsafe {
             gl.blend_func(glow::ZERO, glow::CONSTANT_ALPHA);
             gl.blend_color(0.0, 0.0, 0.0, weight as f32);
-            gl.disable(glow::DEPTH_TEST);
-            gl.enable(glow::BLEND);
-            self.draw_quad(gl);
-            gl.disable(glow::BLEND);
-            gl.enable(glow::DEPTH_TEST);
+            gl.draw_arrays(glow::TRIANGLES, 0, 3);
         }
     }
 
-    pub fn draw_quad(&self, gl: &glow::Context) {
+    /// Section 5's quad, into the frame.
+    pub fn draw_ramp(&self, gl: &glow::Context) {
         unsafe {
-            gl.bind_vertex_array(Some(self.quad));
+            gl.use_program(Some(self.programs.ramp.handle));
+            gl.bind_vertex_array(Some(self.ramp));
             gl.draw_arrays(glow::TRIANGLES, 0, 3);
         }
     }
@@ -185,6 +205,7 @@ impl FboAccum {
     pub fn delete(&self, gl: &glow::Context) {
         unsafe {
             gl.delete_vertex_array(self.quad);
+            gl.delete_vertex_array(self.ramp);
             gl.delete_framebuffer(self.frame.framebuffer);
             gl.delete_texture(self.frame.texture);
             gl.delete_renderbuffer(self.frame.depth_stencil);

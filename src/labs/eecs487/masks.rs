@@ -94,7 +94,7 @@ impl Masks {
             gl::check_framebuffer(gl, "the frame's framebuffer")?;
             let mut framebuffers = Vec::new();
             for layer in 0..count {
-                framebuffers.push(with_depth_and_stencil("mask_fbo")?);
+                framebuffers.push(with_depth_and_stencil(&format!("mask_fbo_{layer}"))?);
                 gl.framebuffer_texture_layer(
                     glow::FRAMEBUFFER,
                     glow::COLOR_ATTACHMENT0,

@@ -1,6 +1,6 @@
 //! What casts shadows: the torus and the teapot, and how they turn.
 
-use glam::{BVec3, DMat4, DVec3, DVec4, dvec3};
+use glam::{DMat4, DVec3, DVec4, dvec3};
 
 use crate::Result;
 use crate::gl;
@@ -37,26 +37,6 @@ impl Occluder {
         let [low, high] = self.bounds;
         let normal = plane.truncate();
         plane.w + (normal * low).min(normal * high).element_sum()
-    }
-
-    /// Whether all of it lies beyond one side of what is seen; beyond the light, too.
-    pub fn is_outside(&self, to_clip: DMat4) -> bool {
-        let [low, high] = self.bounds;
-        let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|number| {
-            let upper = BVec3::new(number & 1 > 0, number & 2 > 0, number & 4 > 0);
-            to_clip * DVec3::select(upper, high, low).extend(1.0)
-        });
-        let sides: [fn(&DVec4) -> f64; 6] = [
-            |p| p.w + p.x,
-            |p| p.w - p.x,
-            |p| p.w + p.y,
-            |p| p.w - p.y,
-            |p| p.w + p.z,
-            |p| p.w - p.z,
-        ];
-        sides
-            .iter()
-            .any(|side| corners.iter().all(|corner| side(corner) < 0.0))
     }
 
     /// Object space to world space after a rotation, in degrees: everything turns about the room's middle, the torus

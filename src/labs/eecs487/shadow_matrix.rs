@@ -27,7 +27,7 @@ pub fn plane_from(origin: DVec3, plane: DVec4) -> DVec4 {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec4Swizzles, dvec3, dvec4};
+    use glam::{dvec3, dvec4};
 
     use super::*;
 
@@ -45,7 +45,7 @@ mod tests {
                 assert!(plane.dot(projected).abs() < 1e-12);
                 let nearer = plane.dot(light.extend(1.0)) - plane.dot(point.extend(1.0));
                 assert!((projected.w - nearer).abs() < 1e-12);
-                let along = projected.xyz() / projected.w - light;
+                let along = projected.truncate() / projected.w - light;
                 assert!(along.cross(point - light).length() < 1e-12);
                 // In front of the light or behind it.
                 assert_eq!(along.dot(point - light) > 0.0, nearer > 0.0);

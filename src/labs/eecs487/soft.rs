@@ -59,7 +59,7 @@ impl Eecs487 {
         let _pass = gl::pass(gl, "soft shadows");
         fbo.fbo_accum_clear(gl);
         for index in 0..passes {
-            unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(fbo.frame.framebuffer)) };
+            fbo.select_frame(gl);
             self.draw_scene(gl, self.jittered(index), look);
             // Second, after each render, copy the contents of the frame buffer into the accumulation buffer.
             fbo.fbo_accum(gl, weight);
@@ -74,12 +74,9 @@ impl Eecs487 {
         let _pass = gl::pass(gl, "the ramp");
         fbo.fbo_accum_clear(gl);
         for _ in 0..RAMP_PASSES {
-            unsafe {
-                gl.bind_framebuffer(glow::FRAMEBUFFER, Some(fbo.frame.framebuffer));
-                gl.use_program(Some(fbo.programs.ramp.handle));
-                gl.clear(glow::DEPTH_BUFFER_BIT);
-            }
-            fbo.draw_quad(gl);
+            fbo.select_frame(gl);
+            unsafe { gl.clear(glow::DEPTH_BUFFER_BIT) };
+            fbo.draw_ramp(gl);
             fbo.fbo_accum(gl, weight);
         }
         fbo.fbo_accum_return(gl, return_weight);
