@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, differing};
+use common::Bench;
 use glam::{DVec3, dvec3};
 use image::RgbImage;
 use shadowlab::ground_truth::{Label, Ray, Rays, Truth};

@@ -131,7 +131,7 @@ pub fn with_room(scene: Scene) -> Result<Scene> {
         )));
     }
     let is_there = |name: &&str| scene.objects.iter().any(|object| object.name == **name);
-    Ok(if WALLS.iter().all(|name| is_there(name)) {
+    Ok(if WALLS.iter().all(is_there) {
         scene
     } else {
         in_the_room(scene.objects, scene.lights[0].clone())
