@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use calls::{Line, in_pass, parse_c};
 use common::Bench;
 use shadowlab::gl::trace;
-use shadowlab::labs::Handout;
+use shadowlab::labs::{Handout, LABS};
 
 /// A lab in a state, with the passes of its frame and the draws of each.
 struct Case {
@@ -98,6 +98,46 @@ const CASES: &[Case] = &[
             ("second pass", 4),
         ],
     },
+    Case {
+        lab: "eecs487",
+        settings: &[],
+        // The light, five walls, two occluders, and the shadows of both on each wall.
+        passes: &[("drawScene", 1 + 5 + 2 + 5 * 2)],
+    },
+    Case {
+        lab: "eecs487",
+        settings: &["stencil_clipping=on"],
+        // Each wall once more into the stencil buffer.
+        passes: &[("drawScene", 1 + 5 + 2 + 5 * 3)],
+    },
+    Case {
+        lab: "eecs487",
+        settings: &["stencil_clipping=on", "soft_shadows=on", "num_jitters=3"],
+        // Everything for each light, and one quad that accumulates it.
+        passes: &[("soft shadows", 3 * (1 + 5 + 2 + 5 * 3 + 1))],
+    },
+    Case {
+        lab: "eecs487",
+        settings: &[
+            "soft_shadows=on",
+            "accumulator=S8",
+            "accumulation=sum_then_divide",
+        ],
+        // And one that returns the sum.
+        passes: &[("soft shadows", 2 * (1 + 5 + 2 + 5 * 2 + 1) + 1)],
+    },
+    Case {
+        lab: "eecs487",
+        settings: &["scene=ramp", "accumulation=sum_then_divide"],
+        passes: &[("the ramp", 8 * 2 + 1)],
+    },
+    Case {
+        lab: "eecs487",
+        settings: &["soft_shadows=on", "soft_method=fast", "num_jitters=40"],
+        // Everything once. The ceiling has nothing before it, and the right wall no teapot: seven shadows of each light
+        // on four walls, and a quad for each of these.
+        passes: &[("soft shadows, fast", 1 + 5 + 2 + 40 * 7 + 4)],
+    },
 ];
 
 impl Case {
@@ -119,7 +159,8 @@ fn sets(line: &Line, now: &HashMap<String, String>) -> Option<(String, String)> 
     let key = match name {
         "glUseProgram" | "glBindVertexArray" | "glViewport" | "glActiveTexture"
         | "glClearColor" | "glCullFace" | "glDepthFunc" | "glDepthMask" | "glColorMask"
-        | "glPolygonMode" => name.to_owned(),
+        | "glPolygonMode" | "glDepthRange" | "glStencilFunc" | "glStencilOp" | "glBlendFunc"
+        | "glBlendColor" => name.to_owned(),
         "glBindFramebuffer" | "glBindBuffer" => format!("{name} {}", line.args[0]),
         "glBindTexture" => format!("{name} {:?} {}", now.get("glActiveTexture"), line.args[0]),
         "glEnable" | "glDisable" => return Some((args, name.to_owned())),
@@ -135,6 +176,13 @@ fn draws(line: &Line) -> bool {
     line.name.starts_with("glDraw")
 }
 
+/// Whether what was set until here has had a use.
+fn uses(line: &Line) -> bool {
+    draws(line)
+        || line.name.starts_with("glClear") && line.name != "glClearColor"
+        || line.name == "glBlitFramebuffer"
+}
+
 /// What is superfluous in a frame's calls, a line each.
 fn superfluous(frame: &[Line]) -> Vec<String> {
     let mut found = Vec::new();
@@ -142,7 +190,7 @@ fn superfluous(frame: &[Line]) -> Vec<String> {
     // What was set since something was drawn or cleared, and where.
     let mut unused: HashMap<String, String> = HashMap::new();
     for line in frame.iter().filter(|line| line.heading().is_none()) {
-        if draws(line) || line.name == "glClear" {
+        if uses(line) {
             unused.clear();
         } else if let Some((key, value)) = sets(line, &now) {
             if now.insert(key.clone(), value.clone()).as_ref() == Some(&value) {
@@ -196,7 +244,7 @@ fn superfluous_calls_are_found() {
     let last = frame.len();
     assert_eq!(with(last, "glBindTexture(GL_TEXTURE_2D, 77);"), 0);
     for (at, line) in frame.iter().enumerate() {
-        if draws(line) || line.heading().is_some() || line.name == "glClear" {
+        if uses(line) || line.heading().is_some() {
             continue;
         }
         assert!(with(at, &format!("{line};")) > 0, "{line} twice");
@@ -217,12 +265,11 @@ fn superfluous_calls_are_found() {
 /// Where light and casters are at rest, the map that was drawn serves on.
 #[test]
 fn at_rest_there_is_no_shadow_pass() {
-    let labs = || shadowlab::labs::LABS.iter();
-    let has_exact = |lab: &&&Handout| lab.settings.iter().any(|s| s.name == "shadow_test");
-    let own = labs().map(|lab| (lab, &[][..]));
-    let exact = labs()
-        .filter(has_exact)
-        .map(|lab| (lab, &["shadow_test=exact"][..]));
+    let has = |lab: &Handout, name: &str| lab.settings.iter().any(|setting| setting.name == name);
+    let own = LABS.iter().filter(|lab| has(lab, "redraw"));
+    let own = own.map(|lab| (lab, &[][..]));
+    let exact = LABS.iter().filter(|lab| has(lab, "shadow_test"));
+    let exact = exact.map(|lab| (lab, &["shadow_test=exact"][..]));
     for (lab, test) in own.chain(exact) {
         let mut bench = Bench::recorded(lab.name, [64, 64], test);
         let mut calls = || {

@@ -57,6 +57,15 @@ const fn cmsc23700(name: &'static str, options: &'static str) -> Case {
     }
 }
 
+const fn eecs487(name: &'static str, options: &'static str) -> Case {
+    Case {
+        lab: "eecs487",
+        name,
+        options,
+        share_beyond: SHARE_BEYOND,
+    }
+}
+
 const CASES: &[Case] = &[
     aueb7("default", ""),
     aueb7("depth-map", "--show shadow-map --set map_size=512"),
@@ -141,6 +150,59 @@ const CASES: &[Case] = &[
     cmsc23700(
         "visibility-spotlight",
         "--size 320x320 --show visibility --light 2",
+    ),
+    eecs487("default", ""),
+    eecs487("visibility", "--size 320x320 --show visibility"),
+    eecs487("floor", "--size 320x320 --keys x"),
+    eecs487("floor-clipped", "--size 320x320 --keys xc"),
+    eecs487("left-clipped", "--size 320x320 --keys xxc"),
+    eecs487("full-room-clipped", "--size 320x320 --keys c"),
+    eecs487(
+        "moved-keys",
+        "--size 320x320 --keys rrrrrrrrrrrrjjjjjjjjjjjjjjjjjjhhhhhhhhwwwwSS",
+    ),
+    eecs487("tessellation-2", "--size 320x320 --set tessellation=2"),
+    eecs487("soft-2", "--size 320x320 --keys f --set jitter_amount=0.05"),
+    eecs487(
+        "soft-16",
+        "--size 320x320 --keys f --set jitter_amount=0.05 --set num_jitters=16",
+    ),
+    eecs487(
+        "soft-64",
+        "--size 320x320 --keys f --set jitter_amount=0.05 --set num_jitters=64",
+    ),
+    eecs487(
+        "soft-64-fast",
+        "--size 320x320 --keys fc --set jitter_amount=0.05 --set num_jitters=64 --set soft_method=fast --set jitter=low-discrepancy",
+    ),
+    eecs487(
+        "soft-visibility",
+        "--size 320x320 --keys f --set jitter_amount=0.05 --set num_jitters=16 --show visibility",
+    ),
+    eecs487(
+        "soft-s8",
+        "--size 320x320 --keys f --set num_jitters=8 --set accumulator=S8",
+    ),
+    eecs487(
+        "soft-s8-sum",
+        "--size 320x320 --keys f --set num_jitters=8 --set accumulator=S8 --set accumulation=sum_then_divide",
+    ),
+    eecs487("ramp", "--size 320x320 --set scene=ramp"),
+    eecs487(
+        "ramp-rgba16f",
+        "--size 320x320 --set scene=ramp --set accumulator=RGBA16F",
+    ),
+    eecs487(
+        "ramp-rgba8",
+        "--size 320x320 --set scene=ramp --set accumulator=RGBA8",
+    ),
+    eecs487(
+        "ramp-s8",
+        "--size 320x320 --set scene=ramp --set accumulator=S8",
+    ),
+    eecs487(
+        "ramp-s8-sum",
+        "--size 320x320 --set scene=ramp --set accumulator=S8 --set accumulation=sum_then_divide",
     ),
     csci3260("default", ""),
     csci3260("depth-map", "--show shadow-map --set map_size=512"),

@@ -298,7 +298,7 @@ fn passes_are_timed_only_on_demand() {
         });
         calls.count()
     };
-    for lab in LABS {
+    for lab in LABS.iter().filter(|lab| !lab.comparisons.is_empty()) {
         let mut bench = Bench::recorded(lab.name, [64, 64], &["redraw=every_frame"]);
         bench.render();
         trace::take();

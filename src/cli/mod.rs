@@ -160,10 +160,15 @@ impl ViewOptions {
 
 impl Trace {
     fn run(&self) -> Result<()> {
-        // As the course does it, each frame draws both passes.
-        let mut running = self
-            .state
-            .start(&self.drawing, &["redraw=every_frame"], true)?;
+        // As the course does it, each frame draws both passes, where there are two.
+        let handout = labs::find(&self.state.lab)?;
+        let has_redraw = handout.settings.iter().any(|s| s.name == "redraw");
+        let first: &[&str] = if has_redraw {
+            &["redraw=every_frame"]
+        } else {
+            &[]
+        };
+        let mut running = self.state.start(&self.drawing, first, true)?;
         running.draw(self.drawing.frames, Show::Picture)?;
         running.timings.lap("frames");
         print(&trace::to_c(&trace::take()))

@@ -126,9 +126,15 @@ impl ReportCommand {
                     "report: expected a LAB in front of options that are about one lab",
                 ));
             }
-            return LABS.iter().copied().map(task).collect();
+            let with_maps = LABS.iter().filter(|lab| !lab.comparisons.is_empty());
+            return with_maps.copied().map(task).collect();
         };
         let handout = labs::find(name)?;
+        if handout.comparisons.is_empty() {
+            return Err(Error::usage(format!(
+                "report: {name} has no shadow map to be drawn and looked up, expected a lab that has one"
+            )));
+        }
         if self.changes.sets("redraw") {
             return Err(Error::usage(
                 "--set redraw: every row is measured with the shadow pass drawn and at rest",

@@ -12,6 +12,7 @@ pub const ATTRIBUTES: [(&str, u32); 3] = [("position", 0), ("normal", 1), ("text
 /// Vertices and triangles in buffers, ready to draw.
 pub struct Mesh {
     vertex_array: glow::VertexArray,
+    buffers: [glow::Buffer; 2],
     index_count: i32,
 }
 
@@ -63,17 +64,22 @@ impl Mesh {
             }
             Ok(Self {
                 vertex_array,
+                buffers: [vertex_buffer, index_buffer],
                 index_count: 3 * mesh.faces.len() as i32,
             })
         }
     }
 
     pub fn draw(&self, gl: &glow::Context) {
-        unsafe { gl.bind_vertex_array(Some(self.vertex_array)) };
+        self.bind(gl);
         self.draw_again(gl);
     }
 
-    /// Draws the mesh that was drawn last, once more.
+    pub fn bind(&self, gl: &glow::Context) {
+        unsafe { gl.bind_vertex_array(Some(self.vertex_array)) };
+    }
+
+    /// Draws the mesh that was drawn or bound last.
     pub fn draw_again(&self, gl: &glow::Context) {
         unsafe { gl.draw_elements(glow::TRIANGLES, self.index_count, glow::UNSIGNED_INT, 0) };
     }
@@ -89,6 +95,15 @@ impl Mesh {
                 0,
                 instances as i32,
             );
+        }
+    }
+
+    pub fn delete(&self, gl: &glow::Context) {
+        unsafe {
+            gl.delete_vertex_array(self.vertex_array);
+            for buffer in self.buffers {
+                gl.delete_buffer(buffer);
+            }
         }
     }
 }

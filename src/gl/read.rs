@@ -46,6 +46,32 @@ pub fn read_float_in_bytes(gl: &glow::Context, [x, y]: [u32; 2]) -> f32 {
     f32::from_le_bytes(bytes)
 }
 
+/// One pixel of the depth buffer; `x`, `y` from the bottom left as GL counts.
+pub fn read_depth(gl: &glow::Context, [x, y]: [u32; 2]) -> f32 {
+    let mut bytes = [0; 4];
+    read_pixels(
+        gl,
+        [x, y, 1, 1],
+        glow::DEPTH_COMPONENT,
+        glow::FLOAT,
+        &mut bytes,
+    );
+    f32::from_ne_bytes(bytes)
+}
+
+/// One pixel of the stencil buffer.
+pub fn read_stencil(gl: &glow::Context, [x, y]: [u32; 2]) -> u8 {
+    let mut bytes = [0];
+    read_pixels(
+        gl,
+        [x, y, 1, 1],
+        glow::STENCIL_INDEX,
+        glow::UNSIGNED_BYTE,
+        &mut bytes,
+    );
+    bytes[0]
+}
+
 /// A depth texture, top row first. It stays bound to the texture unit that is active.
 pub fn read_depths(
     gl: &glow::Context,

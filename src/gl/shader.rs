@@ -179,9 +179,21 @@ impl Program {
 
     /// Sets a uniform of this program, which must be in use. A value that it has already is not sent again.
     pub fn set(&self, gl: &glow::Context, name: &str, value: impl Into<Value>) {
+        self.uniform(name).set(gl, value.into());
+    }
+
+    fn uniform(&self, name: &str) -> &Uniform {
         let uniform = self.uniforms.get(name);
-        let uniform = uniform.unwrap_or_else(|| panic!("uniform {name} was not looked up"));
-        uniform.set(gl, value.into());
+        uniform.unwrap_or_else(|| panic!("uniform {name} was not looked up"))
+    }
+
+    /// Takes a block of uniforms from the buffer that is bound at this number.
+    pub fn bind_block(&self, gl: &glow::Context, name: &str, number: u32) {
+        unsafe {
+            if let Some(index) = gl.get_uniform_block_index(self.handle, name) {
+                gl.uniform_block_binding(self.handle, index, number);
+            }
+        }
     }
 }
 

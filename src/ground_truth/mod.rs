@@ -31,7 +31,7 @@ const GRAZING: f64 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Label {
     /// No surface, or one that the light does not reach for another reason than shadow: it faces away from the light,
-    /// or lies outside of its beam.
+    /// or lies outside of its beam. Or one that the lab never shadows.
     NotValid,
     Lit,
     Shadowed,
@@ -57,6 +57,8 @@ pub struct Rays {
     pub objects: Vec<u32>,
     /// Of each object: whether it casts.
     casts: Vec<bool>,
+    /// Of each object: whether shadows fall on it.
+    receives: Vec<bool>,
     pub source: Source,
     view: View,
 }
@@ -84,6 +86,7 @@ impl Rays {
             surfaces: Surfaces::new(triangles),
             objects,
             casts: scene.objects.iter().map(|object| object.casts).collect(),
+            receives: scene.objects.iter().map(|object| object.receives).collect(),
             source: Source::new(&scene.lights[light], eye),
             view: View::new(&scene.camera),
         }
@@ -146,7 +149,7 @@ impl Rays {
         let point = camera_ray.at(t);
         let seen = Some((triangle, point));
         let facing = self.facing(triangle, point);
-        let mut pixel = if facing <= 0.0 || !self.source.reaches(point) {
+        let mut pixel = if facing <= 0.0 || !self.is_reached(triangle, point) {
             Pixel::new(Label::NotValid, seen, 1)
         } else if self.is_shadowed(triangle, point) {
             Pixel::new(Label::Shadowed, seen, 2)
@@ -155,6 +158,11 @@ impl Rays {
         };
         pixel.ambiguous = facing.abs() < GRAZING;
         pixel
+    }
+
+    /// Whether the point of a triangle can be in shadow at all: it lies in the beam, on something that receives shadows.
+    fn is_reached(&self, triangle: u32, point: DVec3) -> bool {
+        self.receives[self.objects[triangle as usize] as usize] && self.source.reaches(point)
     }
 
     /// The cosine between a triangle's geometric normal and the direction to the light.
@@ -234,7 +242,7 @@ impl Rays {
             return Label::NotValid;
         };
         let point = ray.at(hit.t);
-        if self.facing(hit.triangle, point) <= 0.0 || !self.source.reaches(point) {
+        if self.facing(hit.triangle, point) <= 0.0 || !self.is_reached(hit.triangle, point) {
             return Label::NotValid;
         }
         let ray = Ray::new(point, self.source.towards(point));

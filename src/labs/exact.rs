@@ -42,6 +42,12 @@ impl ClipTriangle {
         weights / weights.element_sum()
     }
 
+    /// The same where the triangle covers the place, between near and far.
+    pub fn covers(&self, size: [u32; 2], place: DVec2) -> Option<DVec3> {
+        let screen = 2.0 * place / dvec2(f64::from(size[0]), f64::from(size[1])) - 1.0;
+        self.depth(screen).map(|_| self.shares(size, place))
+    }
+
     /// The depth in 0…1 at a point of the screen in −1…1; None outside of the triangle and of near and far.
     fn depth(&self, screen: DVec2) -> Option<f64> {
         let weights = self.weights * screen.extend(1.0);

@@ -7,6 +7,7 @@ pub mod aueb7;
 pub mod cmsc23700;
 pub mod cs541;
 pub mod csci3260;
+pub mod eecs487;
 mod exact;
 mod explanation;
 mod keys;
@@ -25,6 +26,7 @@ use crate::{Error, Result, error};
 /// Every lab, in the order in which they are listed.
 pub static LABS: &[&Handout] = &[
     &cs541::HANDOUT,
+    &eecs487::HANDOUT,
     &csci3260::HANDOUT,
     &cmsc23700::HANDOUT,
     &aueb7::HANDOUT,

@@ -45,6 +45,8 @@ pub struct Object {
     pub material: Material,
     /// Whether the object is drawn into the shadow map.
     pub casts: bool,
+    /// Whether shadows fall on it: where they are projected, onto the walls alone.
+    pub receives: bool,
     /// Whether the mesh is the course's Plane: a sheet without volume, whose normal is +z in object space.
     pub plane: bool,
 }
@@ -117,6 +119,7 @@ impl Object {
             spin: None,
             material,
             casts: true,
+            receives: true,
             plane: false,
         }
     }

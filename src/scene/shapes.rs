@@ -47,16 +47,20 @@ pub fn sphere(mesh_size: u32) -> Mesh {
 /// 2n slices about the axis and n about the tube, at least 3.
 #[doc(alias = "Torus")]
 pub fn torus(thickness: f64, mesh_size: u32) -> Mesh {
-    assert!(mesh_size >= 3, "a tube of {mesh_size} sides is flat");
-    let (sides, slices) = (mesh_size, 2 * mesh_size);
     let major = 1.0 / (1.0 + thickness);
-    let minor = thickness * major;
-    grid(sides, slices, |side, slice| {
-        let (tube, around) = (on_circle(side, sides), on_circle(slice, slices));
+    ring(thickness * major, major, mesh_size, 2 * mesh_size)
+}
+
+/// A ring about z: `sides` about the tube of radius `minor`, `rings` about the axis at the distance `major`.
+#[doc(alias = "glutSolidTorus")]
+pub fn ring(minor: f64, major: f64, sides: u32, rings: u32) -> Mesh {
+    assert!(sides >= 3, "a tube of {sides} sides is flat");
+    grid(sides, rings, |side, slice| {
+        let (tube, around) = (on_circle(side, sides), on_circle(slice, rings));
         let position = (around * (major + minor * tube.x)).extend(minor * tube.y);
         let normal = (around * tube.x).extend(tube.y);
         let st = DVec2::new(
-            f64::from(slice) / f64::from(slices),
+            f64::from(slice) / f64::from(rings),
             f64::from(side) / f64::from(sides),
         );
         (position, normal, st)

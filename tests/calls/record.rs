@@ -21,9 +21,11 @@ fn program() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_shadowlab"))
 }
 
-/// The lines of `shadowlab trace`.
+/// The lines of `shadowlab trace`; options may follow the lab's name.
 pub fn traced(lab: &str) -> Vec<Line> {
-    let text = output(Command::new(program()).args(["trace", lab, "--device", "software"]));
+    let mut command = Command::new(program());
+    command.arg("trace").args(lab.split(' '));
+    let text = output(command.args(["--device", "software"]));
     parse_c(&String::from_utf8(text).unwrap())
 }
 
@@ -35,7 +37,9 @@ pub fn seen_from_outside(lab: &str, folder: &Path) -> Vec<Line> {
             .args(["trace", "--api", "egl", "--output"])
             .arg(&record)
             .arg(program())
-            .args(["screenshot", lab, "--device", "software", "-o"])
+            .arg("screenshot")
+            .args(lab.split(' '))
+            .args(["--device", "software", "-o"])
             .arg(folder.join("picture.png")),
     );
     let dump = output(

@@ -117,6 +117,7 @@ pub fn balls(simulation: &Simulation, mesh: &Arc<Mesh>) -> impl Iterator<Item = 
             ..Material::default()
         },
         casts: true,
+        receives: true,
         plane: false,
     })
 }

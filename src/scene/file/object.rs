@@ -88,6 +88,7 @@ pub fn objects(
             spin,
             material,
             casts,
+            receives: true,
         });
     }
     Ok(objects)
