@@ -144,10 +144,14 @@ impl Eecs487 {
         wall: &Wall,
     ) {
         let program = &self.programs.fast.mask;
+        let behind = |o: &Occluder| o.least(o.model(self.rotation).transpose() * wall.plane) < 0.0;
+        let reaches_behind = self.casters(wall).any(behind);
         unsafe {
             gl.use_program(Some(program.handle));
             gl.blend_func(glow::ONE, glow::ONE);
-            gl.enable(glow::CLIP_DISTANCE0);
+            if reaches_behind {
+                gl.enable(glow::CLIP_DISTANCE0);
+            }
         }
         let lights = self.num_jitters();
         let mut drawn: Option<&Occluder> = None;
@@ -181,7 +185,9 @@ impl Eecs487 {
         }
         unsafe {
             gl.depth_range_f64(0.0, 1.0);
-            gl.disable(glow::CLIP_DISTANCE0);
+            if reaches_behind {
+                gl.disable(glow::CLIP_DISTANCE0);
+            }
         }
     }
 
