@@ -307,6 +307,7 @@ const WRONG: &[(&str, i32, &[&str])] = &[
     ),
     ("trace cs541 -o trace.txt", 2, &["-o"]),
     ("report cs541", 2, &["--output"]),
+    ("report eecs487 -o r", 2, &["eecs487", "no shadow map"]),
     ("report cs542 -o r", 2, &["cs542", "did you mean \"cs541\""]),
     (
         "report --set epsilon=0 -o r",
