@@ -20,7 +20,10 @@ use glow::HasContext;
 pub use check::{check_errors, check_framebuffer};
 pub use mesh::Mesh;
 pub use overlay::{Area, Overlay};
-pub use read::{read_depth, read_depths, read_float_in_bytes, read_grey, read_rgb, read_stencil};
+pub use read::{
+    read_depth, read_depths, read_float_in_bytes, read_float_of_one_vertex, read_grey, read_rgb,
+    read_stencil,
+};
 pub use shader::{Program, Shaders};
 pub use texture::{largest_texture, levels, solid_texture, texture};
 pub use timer::{finish, time_passes};

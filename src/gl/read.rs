@@ -4,6 +4,7 @@ use glow::{HasContext, PixelPackData};
 use image::{GrayImage, RgbImage};
 
 use crate::picture::DepthMap;
+use crate::{Error, Result};
 
 /// The colours of the framebuffer that is bound for reading.
 pub fn read_rgb(gl: &glow::Context, [width, height]: [u32; 2]) -> RgbImage {
@@ -44,6 +45,18 @@ pub fn read_float_in_bytes(gl: &glow::Context, [x, y]: [u32; 2]) -> f32 {
         &mut bytes,
     );
     f32::from_le_bytes(bytes)
+}
+
+/// The same of a single vertex, whose attributes come from no array: it is drawn into a viewport of one pixel.
+pub fn read_float_of_one_vertex(gl: &glow::Context) -> Result<f32> {
+    unsafe {
+        gl.viewport(0, 0, 1, 1);
+        let nothing = gl.create_vertex_array().map_err(Error::gl)?;
+        gl.bind_vertex_array(Some(nothing));
+        gl.draw_arrays(glow::POINTS, 0, 1);
+        gl.delete_vertex_array(nothing);
+    }
+    Ok(read_float_in_bytes(gl, [0, 0]))
 }
 
 /// One pixel of the depth buffer; `x`, `y` from the bottom left as GL counts.

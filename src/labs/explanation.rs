@@ -4,6 +4,9 @@ use std::fmt;
 
 use glam::{DMat4, DVec3};
 
+use super::exact::Range;
+use crate::{Error, Result};
+
 /// Where to look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Probe {
@@ -11,6 +14,20 @@ pub enum Probe {
     Pixel([u32; 2]),
     /// A point in world space.
     Point(DVec3),
+}
+
+impl Probe {
+    /// An error where the picture has no such pixel.
+    pub(super) fn check(self, [width, height]: [u32; 2]) -> Result<()> {
+        match self {
+            Self::Pixel([x, y]) if x >= width || y >= height => Err(Error::usage(format!(
+                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
+                width - 1,
+                height - 1
+            ))),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// The values of a shadow test at one place.
@@ -40,6 +57,21 @@ pub struct Step {
 }
 
 impl Step {
+    pub(super) fn new(
+        name: &'static str,
+        components: &'static [&'static str],
+        gpu: &[f64],
+        exact: &[Range],
+    ) -> Self {
+        Self {
+            name,
+            components,
+            gpu: gpu.to_vec(),
+            exact: exact.iter().map(|range| range.value).collect(),
+            bound: exact.iter().map(Range::radius).collect(),
+        }
+    }
+
     /// Whether each of the GPU's values lies within the bound of the f64 one.
     pub fn agrees(&self) -> bool {
         let apart = self.gpu.iter().zip(&self.exact).map(|(a, b)| (a - b).abs());

@@ -81,14 +81,9 @@ impl Eecs487 {
                 "soft shadows are an average, and no single shadow explains them, expected soft_shadows=off",
             );
         }
-        let [width, height] = self.size;
+        probe.check(self.size)?;
         match probe {
-            Probe::Pixel([x, y]) if x < width && y < height => Ok([x, y]),
-            Probe::Pixel([x, y]) => refused(&format!(
-                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
-                width - 1,
-                height - 1
-            )),
+            Probe::Pixel(pixel) => Ok(pixel),
             Probe::Point(_) => refused(
                 "eecs487 tests no point: its shadows are drawn on what is seen, expected a pixel",
             ),

@@ -8,9 +8,9 @@ use glow::HasContext;
 
 use super::super::Aueb7;
 use super::super::programs::with_shadow_test;
+use crate::Result;
 use crate::gl::{self, Program};
 use crate::labs::Probe;
-use crate::{Error, Result};
 
 /// How many values `explain.frag` has.
 const VALUES: usize = 29;
@@ -119,12 +119,7 @@ impl Aueb7 {
         self.set_model(gl, program, DMat4::from_translation(point));
         unsafe {
             gl.bind_texture(glow::TEXTURE_2D, Some(self.white));
-            gl.viewport(0, 0, 1, 1);
-            let nothing = gl.create_vertex_array().map_err(Error::gl)?;
-            gl.bind_vertex_array(Some(nothing));
-            gl.draw_arrays(glow::POINTS, 0, 1);
-            gl.delete_vertex_array(nothing);
         }
-        Ok(f64::from(gl::read_float_in_bytes(gl, [0, 0])))
+        Ok(f64::from(gl::read_float_of_one_vertex(gl)?))
     }
 }

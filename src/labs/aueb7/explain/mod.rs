@@ -7,7 +7,6 @@ use glam::{DMat4, DVec3};
 
 use super::{Aueb7, HANDOUT};
 use crate::gl;
-use crate::labs::exact::Range;
 use crate::labs::{Explanation, Lab, Probe, Show, Step};
 use crate::{Error, Result};
 use exact::Exact;
@@ -73,15 +72,7 @@ impl Aueb7 {
                 "F1 has chosen wireframe or points, expected the filled surfaces that are explained",
             ));
         }
-        let [width, height] = self.size;
-        match probe {
-            Probe::Pixel([x, y]) if x >= width || y >= height => Err(Error::usage(format!(
-                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
-                width - 1,
-                height - 1
-            ))),
-            _ => Ok(()),
-        }
+        probe.check(self.size)
     }
 
     fn steps(&self, gpu: &Fragment, exact: &Exact) -> Vec<Step> {
@@ -93,32 +84,32 @@ impl Aueb7 {
             &SAMPLES[..count]
         };
         vec![
-            step(
+            Step::new(
                 "position_ecs",
                 &XYZW[..3],
                 &gpu.position_ecs.to_array(),
                 &exact.position_ecs,
             ),
-            step(
+            Step::new(
                 "position_lcs",
                 XYZW,
                 &gpu.position_lcs.to_array(),
                 &exact.position_lcs,
             ),
-            step(
+            Step::new(
                 "z - constant_depth_bias",
                 &[""],
                 &[gpu.nearer],
                 &[exact.nearer],
             ),
-            step("shadow_map_z", names, &gpu.stored[..count], &exact.stored),
-            step(
+            Step::new("shadow_map_z", names, &gpu.stored[..count], &exact.stored),
+            Step::new(
                 "is_point_in_shadow",
                 names,
                 &gpu.visible[..count],
                 &exact.visible,
             ),
-            step(
+            Step::new(
                 "shadow_factor",
                 &[""],
                 &[gpu.shadow_factor],
@@ -166,20 +157,5 @@ impl Aueb7 {
             ),
         ]);
         matrices
-    }
-}
-
-fn step(
-    name: &'static str,
-    components: &'static [&'static str],
-    gpu: &[f64],
-    exact: &[Range],
-) -> Step {
-    Step {
-        name,
-        components,
-        gpu: gpu.to_vec(),
-        exact: exact.iter().map(|range| range.value).collect(),
-        bound: exact.iter().map(Range::radius).collect(),
     }
 }

@@ -8,9 +8,9 @@ use glow::HasContext;
 
 use super::super::second_pass::with_shadow_test;
 use super::super::{Cmsc23700, lights};
+use crate::Result;
 use crate::gl::{self, Program};
 use crate::labs::Probe;
-use crate::{Error, Result};
 
 /// What `explain.frag` tells of one fragment.
 pub struct Fragment {
@@ -142,13 +142,6 @@ impl Cmsc23700 {
         );
         let middle = DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, DVec4::ZERO, DVec4::W);
         program.set(gl, "projection", middle);
-        unsafe {
-            gl.viewport(0, 0, 1, 1);
-            let nothing = gl.create_vertex_array().map_err(Error::gl)?;
-            gl.bind_vertex_array(Some(nothing));
-            gl.draw_arrays(glow::POINTS, 0, 1);
-            gl.delete_vertex_array(nothing);
-        }
-        Ok(f64::from(gl::read_float_in_bytes(gl, [0, 0])))
+        Ok(f64::from(gl::read_float_of_one_vertex(gl)?))
     }
 }

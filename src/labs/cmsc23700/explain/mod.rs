@@ -8,7 +8,6 @@ use glam::{DMat4, DVec3};
 use super::lights::{cos_cutoff, to_texture};
 use super::{Cmsc23700, HANDOUT, SPOT};
 use crate::gl;
-use crate::labs::exact::Range;
 use crate::labs::{Explanation, Lab, Probe, Show, Step};
 use crate::{Error, Result};
 use exact::Exact;
@@ -69,15 +68,7 @@ impl Cmsc23700 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
-        let [width, height] = self.size;
-        match probe {
-            Probe::Pixel([x, y]) if x >= width || y >= height => Err(Error::usage(format!(
-                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
-                width - 1,
-                height - 1
-            ))),
-            _ => Ok(()),
-        }
+        probe.check(self.size)
     }
 
     /// Which ball has this number among all that is drawn; both count from 0.
@@ -96,34 +87,39 @@ impl Cmsc23700 {
             ("directionalCoord", "depth - directionalBias"),
             ("spotCoord", "depth - spotBias"),
         ][light];
-        let mut steps = vec![step(
+        let mut steps = vec![Step::new(
             "eyePosition",
             XYZ,
             &gpu.eye_position.to_array(),
             &exact.eye_position,
         )];
         if light == SPOT {
-            steps.push(step("spotDot", &[""], &[gpu.spot_dot], &[exact.spot_dot]));
+            steps.push(Step::new(
+                "spotDot",
+                &[""],
+                &[gpu.spot_dot],
+                &[exact.spot_dot],
+            ));
             if !self.is_asked(gpu.spot_dot, light) {
                 return steps;
             }
         }
         steps.extend([
-            step(
+            Step::new(
                 coord,
                 &["x", "y", "z", "w"],
                 &gpu.coord.to_array(),
                 &exact.coord,
             ),
-            step(
+            Step::new(
                 "place = xyz / w",
                 &["x", "y", "z"],
                 &gpu.place.to_array(),
                 &exact.place,
             ),
-            step(bias, &[""], &[gpu.nearer], &[exact.nearer]),
-            step("in the map (stored)", &[""], &[gpu.stored], &[exact.stored]),
-            step("S_l", &[""], &[gpu.shadow], &[exact.shadow]),
+            Step::new(bias, &[""], &[gpu.nearer], &[exact.nearer]),
+            Step::new("in the map (stored)", &[""], &[gpu.stored], &[exact.stored]),
+            Step::new("S_l", &[""], &[gpu.shadow], &[exact.shadow]),
         ]);
         steps
     }
@@ -199,20 +195,5 @@ impl Cmsc23700 {
                 DMat4::from_translation(place.expect("a ball that was drawn"))
             }
         }
-    }
-}
-
-fn step(
-    name: &'static str,
-    components: &'static [&'static str],
-    gpu: &[f64],
-    exact: &[Range],
-) -> Step {
-    Step {
-        name,
-        components,
-        gpu: gpu.to_vec(),
-        exact: exact.iter().map(|range| range.value).collect(),
-        bound: exact.iter().map(Range::radius).collect(),
     }
 }

@@ -8,9 +8,9 @@ use glow::HasContext;
 
 use super::super::Cs541;
 use super::super::programs::{MATRICES, SHADOW_TEST};
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
 use crate::labs::Probe;
-use crate::{Error, Result};
 
 /// What `explain.frag` tells of one fragment.
 pub struct Fragment {
@@ -145,14 +145,7 @@ impl Cs541 {
             "model_matrix",
             DMat4::from_translation(point - self.camera().eye),
         );
-        unsafe {
-            gl.viewport(0, 0, 1, 1);
-            let nothing = gl.create_vertex_array().map_err(Error::gl)?;
-            gl.bind_vertex_array(Some(nothing));
-            gl.draw_arrays(glow::POINTS, 0, 1);
-            gl.delete_vertex_array(nothing);
-        }
-        Ok(f64::from(gl::read_float_in_bytes(gl, [0, 0])))
+        Ok(f64::from(gl::read_float_of_one_vertex(gl)?))
     }
 
     fn use_explainer(&self, gl: &glow::Context, program: &Program, value: i32) {

@@ -45,16 +45,7 @@ impl Cs541 {
                 "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
             ));
         }
-        if let Probe::Pixel([x, y]) = probe
-            && (x >= self.size[0] || y >= self.size[1])
-        {
-            let [width, height] = self.size;
-            return Err(Error::usage(format!(
-                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
-                width - 1,
-                height - 1
-            )));
-        }
+        probe.check(self.size)?;
         super::Lab::render(self, gl, Show::Picture)?;
         let color = match probe {
             Probe::Pixel([x, y]) => Some(gl::read_rgb(gl, self.size).get_pixel(x, y).0),

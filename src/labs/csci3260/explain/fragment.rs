@@ -8,9 +8,9 @@ use glow::HasContext;
 
 use super::super::Csci3260;
 use super::super::basic_shader::{bias_matrix, with_shadow_test};
+use crate::Result;
 use crate::gl::{self, Program};
 use crate::labs::Probe;
-use crate::{Error, Result};
 
 /// What `explain.frag` tells of one fragment.
 pub struct Fragment {
@@ -136,13 +136,6 @@ impl Csci3260 {
         program.set(gl, "normalMatrix", DMat3::IDENTITY);
         let to_light = self.depth_projection_matrix() * self.depth_view_matrix(eye);
         program.set(gl, "DepthBiasMVP", bias_matrix() * to_light * to_point);
-        unsafe {
-            gl.viewport(0, 0, 1, 1);
-            let nothing = gl.create_vertex_array().map_err(Error::gl)?;
-            gl.bind_vertex_array(Some(nothing));
-            gl.draw_arrays(glow::POINTS, 0, 1);
-            gl.delete_vertex_array(nothing);
-        }
-        Ok(f64::from(gl::read_float_in_bytes(gl, [0, 0])))
+        Ok(f64::from(gl::read_float_of_one_vertex(gl)?))
     }
 }

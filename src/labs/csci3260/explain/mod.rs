@@ -69,13 +69,8 @@ impl Csci3260 {
                 "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
             ));
         }
-        let [width, height] = self.size;
+        probe.check(self.size)?;
         match probe {
-            Probe::Pixel([x, y]) if x >= width || y >= height => Err(Error::usage(format!(
-                "pixel {x},{y} is outside of the picture, expected 0,0 to {},{}",
-                width - 1,
-                height - 1
-            ))),
             Probe::Point(_) if self.settings.choice("stage") == "slope" => Err(Error::usage(
                 "stage=slope takes the bias from the surface's normal, which a point does not have, expected a pixel",
             )),
@@ -91,40 +86,40 @@ impl Csci3260 {
             most: exact.point[i].most + eye[i],
         });
         let mut steps = vec![
-            step("world position", XYZ, vector(gpu.position + eye), &world),
-            step(
+            Step::new(
+                "world position",
+                XYZ,
+                &(gpu.position + eye).to_array(),
+                &world,
+            ),
+            Step::new(
                 "ShadowCoord",
                 XYZ,
-                vector(gpu.shadow_coord),
+                &gpu.shadow_coord.to_array(),
                 &exact.shadow_coord,
             ),
         ];
         if self.settings.choice("stage") == "slope" {
-            let gpu = vec![gpu.cos_theta];
-            steps.push(step("cosTheta", &[""], gpu, &[exact.cos_theta]));
+            let gpu = [gpu.cos_theta];
+            steps.push(Step::new("cosTheta", &[""], &gpu, &[exact.cos_theta]));
         }
         let taps = self.taps();
         let names: &[&str] = &["", "−x", "+x", "−y", "+y"];
         steps.extend([
-            step("bias", &[""], vec![gpu.bias], &[exact.bias]),
-            step(
+            Step::new("bias", &[""], &[gpu.bias], &[exact.bias]),
+            Step::new(
                 "ShadowCoord.z - bias",
                 &[""],
-                vec![gpu.nearer],
+                &[gpu.nearer],
                 &[exact.nearer],
             ),
-            step(
+            Step::new(
                 "shadowMap.z (stored)",
                 &names[..taps],
-                gpu.stored[..taps].to_vec(),
+                &gpu.stored[..taps],
                 &exact.stored[..taps],
             ),
-            step(
-                "visibility",
-                &[""],
-                vec![gpu.visibility],
-                &[exact.visibility],
-            ),
+            Step::new("visibility", &[""], &[gpu.visibility], &[exact.visibility]),
         ]);
         steps
     }
@@ -181,24 +176,5 @@ impl Csci3260 {
             ),
         ]);
         matrices
-    }
-}
-
-fn vector(v: DVec3) -> Vec<f64> {
-    v.to_array().to_vec()
-}
-
-fn step(
-    name: &'static str,
-    components: &'static [&'static str],
-    gpu: Vec<f64>,
-    exact: &[Range],
-) -> Step {
-    Step {
-        name,
-        components,
-        gpu,
-        exact: exact.iter().map(|range| range.value).collect(),
-        bound: exact.iter().map(Range::radius).collect(),
     }
 }
