@@ -4,11 +4,19 @@ use super::Cs541;
 use super::programs::{exact_lighting_program, exact_visibility_program};
 use crate::gl::{Program, Shaders};
 use crate::scene::{Light, Object};
-use crate::shadow_tests::exact::{ExactTest, Placed};
+use crate::shadow_tests::exact::{Binding, Builder, ExactTest, LIGHT_BUFFER, Placed};
 use crate::{Error, Result};
+
+const BINDING: Binding = Binding {
+    pass: "the light buffer",
+    uniforms: LIGHT_BUFFER,
+    // Before it are the object's texture and the shadow map.
+    first_unit: 2,
+};
 
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Exact {
+    builder: Builder,
     pub test: ExactTest,
     pub lighting: Program,
     pub visibility: Program,
@@ -20,7 +28,8 @@ impl Exact {
         let visibility =
             exact_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
         Ok(Self {
-            test: ExactTest::new(gl)?,
+            builder: Builder::default(),
+            test: ExactTest::new(gl, &BINDING)?,
             lighting,
             visibility,
         })
@@ -60,7 +69,8 @@ impl Cs541 {
         };
         let every_frame = self.settings.choice("redraw") == "every_frame";
         let exact = self.exact.as_mut().expect("made above");
-        exact.test.prepare(gl, &light, scene, every_frame)
+        let Exact { builder, test, .. } = exact;
+        test.prepare(gl, builder, &light, scene, every_frame)
     }
 
     /// What every program with the exact test needs: both cameras, the light buffer, the beam.
