@@ -99,6 +99,24 @@ const CASES: &[Case] = &[
         ],
     },
     Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "shadow_test=exact"],
+        passes: &[
+            ("the light buffer", 0),
+            ("second pass: Render, with the light buffer", 4),
+        ],
+    },
+    Case {
+        lab: "cmsc23700",
+        settings: &["redraw=every_frame", "shadow_test=exact"],
+        passes: &[
+            ("the balls' places", 0),
+            ("the directional light's buffer", 0),
+            ("the spotlight's buffer", 0),
+            ("second pass: with the light buffers", 5),
+        ],
+    },
+    Case {
         lab: "eecs487",
         settings: &[],
         // The light, five walls, two occluders, and the shadows of both on each wall.
