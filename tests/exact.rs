@@ -291,6 +291,27 @@ fn outside_of_the_beam_it_is_dark_or_lit() {
     assert_eq!(dark(&["shadow_test=exact", "shadows=off"]), 0);
 }
 
+/// What the report calls bytes on the GPU has the light buffers in it, and only while the test is chosen.
+#[test]
+fn the_light_buffers_are_counted_until_another_test_is_chosen() {
+    for lab in ["cs541", "csci3260", "cmsc23700", "aueb7"] {
+        let mut bench = Bench::recorded(lab, [16, 16], &[]);
+        let mut memory = trace::Memory::default();
+        let mut buffers = |test: &str| {
+            bench.set(&[test]);
+            bench.render();
+            memory.note(&trace::take()).unwrap();
+            memory.bytes().buffers
+        };
+        let without = buffers("shadow_test=handout");
+        let with = buffers("shadow_test=exact");
+        // 64² cells of 16 bytes are the least that a light buffer has.
+        assert!(with >= without + 65_536, "{lab}: {without} {with}");
+        assert_eq!(buffers("shadow_test=handout"), without, "{lab}");
+        assert_eq!(buffers("shadow_test=exact"), with, "{lab}");
+    }
+}
+
 #[test]
 fn the_same_state_is_the_same_picture_whatever_came_before() {
     for (lab, other, back) in [

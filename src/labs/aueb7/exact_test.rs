@@ -99,6 +99,15 @@ impl Aueb7 {
         test.prepare(gl, builder, &light, scene, every_frame)
     }
 
+    /// Gives the light buffer back once another test is chosen.
+    pub(super) fn release_exact_test(&mut self, gl: &glow::Context) {
+        let is_chosen = self.settings.choice("shadow_test") == "exact";
+        let exact = self.exact.as_mut().filter(|_| !is_chosen);
+        if let Some(exact) = exact {
+            exact.test.release(gl);
+        }
+    }
+
     /// What every program with the exact test needs: the camera, the light buffer, what lies outside of the beam.
     pub(super) fn use_light_buffer(&self, gl: &glow::Context, exact: &Exact, program: &Program) {
         exact.test.bind(gl, program);

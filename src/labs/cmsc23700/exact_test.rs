@@ -136,6 +136,15 @@ impl Cmsc23700 {
         Ok(())
     }
 
+    /// Gives the light buffers back once another test is chosen.
+    pub(super) fn release_exact_tests(&mut self, gl: &glow::Context) {
+        let is_chosen = self.settings.choice("shadow_test") == "exact";
+        let exact = self.exact.as_mut().filter(|_| !is_chosen);
+        for test in exact.into_iter().flat_map(|exact| &mut exact.tests) {
+            test.release(gl);
+        }
+    }
+
     /// The objects, and then each ball.
     fn placed_scene(&self) -> Vec<Placed> {
         let object = |object: &Object| Placed {

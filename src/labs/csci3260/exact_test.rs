@@ -88,6 +88,15 @@ impl Csci3260 {
         test.prepare(gl, builder, &light, scene, every_frame)
     }
 
+    /// Gives the light buffer back once another test is chosen.
+    pub(super) fn release_exact_test(&mut self, gl: &glow::Context) {
+        let is_chosen = self.settings.choice("shadow_test") == "exact";
+        let exact = self.exact.as_mut().filter(|_| !is_chosen);
+        if let Some(exact) = exact {
+            exact.test.release(gl);
+        }
+    }
+
     /// The exact test alone.
     pub(super) fn draw_exact_visibility(&self, gl: &glow::Context, exact: &Exact) {
         let _pass = gl::pass(gl, "using the light buffer: the test alone");

@@ -129,6 +129,14 @@ impl ExactTest {
         Ok(())
     }
 
+    /// Gives the memory back, while another test is in use.
+    pub fn release(&mut self, gl: &glow::Context) {
+        self.built = None;
+        for texture in &mut self.textures {
+            texture.release(gl);
+        }
+    }
+
     fn values(&self) -> &Values {
         let (_, values) = self
             .built
@@ -238,6 +246,15 @@ impl BufferTexture {
             gl.buffer_sub_data_u8_slice(glow::TEXTURE_BUFFER, 0, contents);
         }
         Ok(())
+    }
+
+    fn release(&mut self, gl: &glow::Context) {
+        if std::mem::take(&mut self.capacity) > 0 {
+            unsafe {
+                gl.bind_buffer(glow::TEXTURE_BUFFER, Some(self.buffer));
+                gl.buffer_data_size(glow::TEXTURE_BUFFER, 0, glow::DYNAMIC_DRAW);
+            }
+        }
     }
 }
 
