@@ -159,14 +159,15 @@ impl Aueb7 {
         }
         let _pass = gl::pass(gl, "set-up: meshes and textures");
         let mut models = Vec::new();
+        let mut sent = gl::Textures::default();
         for (object, _) in self.geometry() {
             let name = &object.name;
             models.push(Model {
                 mesh: gl::Mesh::new(gl, name, &object.mesh)?,
                 texture: match &object.material.texture {
-                    Some(picture) => {
-                        gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?
-                    }
+                    Some(picture) => sent.of(gl, &format!("{name}_texture"), picture, || {
+                        gl::levels(picture)
+                    })?,
                     None => self.white,
                 },
             });
@@ -263,6 +264,7 @@ impl Lab for Aueb7 {
         if self.is_exact() {
             self.prepare_exact_test(gl)?;
         } else {
+            self.release_exact_test(gl);
             self.prepare_handouts_test(gl, show)?;
         }
 

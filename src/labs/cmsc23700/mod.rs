@@ -245,6 +245,7 @@ impl Cmsc23700 {
         if self.is_exact() {
             self.prepare_exact_tests(gl)?;
         } else {
+            self.release_exact_tests(gl);
             self.prepare_shadow_maps(gl)?;
         }
         match show {

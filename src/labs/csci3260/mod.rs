@@ -237,6 +237,7 @@ impl Csci3260 {
         if self.is_exact() {
             self.prepare_exact_test(gl)?;
         } else {
+            self.release_exact_test(gl);
             self.prepare_shadow_map(gl)?;
         }
         match show {
