@@ -84,7 +84,7 @@ impl Cs541 {
         );
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         self.select_window(gl, [red, green, blue, 1.0]);
-        self.draw_sky(gl);
+        let mut bound = self.draw_sky(gl);
 
         let program = match exact {
             Some(exact) => &exact.lighting,
@@ -105,8 +105,10 @@ impl Cs541 {
         program.set(gl, "light_position", position - eye);
         program.set(gl, "light_color", color);
         program.set(gl, "ambient_color", self.scene.ambient);
-        unsafe { gl.active_texture(glow::TEXTURE0) };
-        let mut bound = None;
+        if unshadowed.is_none() {
+            // The map or the light buffer was bound last.
+            unsafe { gl.active_texture(glow::TEXTURE0) };
+        }
         let mut culling = false;
         for drawn in self.draw_order() {
             let Drawn { index, model, .. } = drawn;
@@ -216,14 +218,16 @@ impl Cs541 {
         DMat4::from_translation(-eye) * object.model(self.time)
     }
 
-    /// The sky dome, around the eye and behind everything, and the marker that shows where the light is.
-    fn draw_sky(&self, gl: &glow::Context) {
+    /// The sky dome, around the eye and behind everything, and the marker that shows where the light is. Returns the
+    /// texture that is bound now.
+    fn draw_sky(&self, gl: &glow::Context) -> Option<glow::Texture> {
         let program = &self.programs.unlit;
         let Sky {
             dome,
             texture,
             marker_texture,
         } = &self.sky;
+        let mut bound = *texture;
         let camera = self.camera();
         let dome_planes = Camera {
             near: 0.01,
@@ -257,7 +261,8 @@ impl Cs541 {
         let radius = MARKER_RADIUS * light.near;
         // From within, the marker would hide everything.
         if offset.length() > 2.0 * radius {
-            unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(*marker_texture)) };
+            bound = Some(*marker_texture);
+            unsafe { gl.bind_texture(glow::TEXTURE_2D, bound) };
             let model = DMat4::from_translation(offset) * DMat4::from_scale(DVec3::splat(radius));
             program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
             program.set(gl, "model_matrix", model);
@@ -268,5 +273,6 @@ impl Cs541 {
                 dome.draw(gl);
             }
         }
+        bound
     }
 }
