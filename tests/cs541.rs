@@ -2,8 +2,10 @@
 
 mod common;
 
-use common::{Bench, differing};
-use glam::{DVec3, dvec3};
+use std::sync::Arc;
+
+use common::{Bench, differing, work_folder};
+use glam::{DMat4, DVec3, dvec3};
 use image::{GrayImage, RgbImage};
 use shadowlab::scene::Scene;
 use shadowlab::{gl, labs};
@@ -256,4 +258,149 @@ fn every_setting_is_read() {
     still.set(&["rotation=on"]);
     still.lab.advance(1.0);
     assert!(differing(&before, &still.picture()) > 0, "rotation=on");
+}
+
+/// The lines of a shader, without comments and without those that have one of these words.
+fn without(text: &str, words: &[&str]) -> Vec<String> {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap());
+    let lines = lines.map(|line| line.trim().to_owned());
+    let is_meant =
+        |line: &String| !line.is_empty() && !words.iter().any(|word| line.contains(word));
+    lines.filter(is_meant).collect()
+}
+
+#[test]
+fn the_shader_for_shadows_off_differs_in_the_test_alone() {
+    let read = |name: &str| std::fs::read_to_string(format!("glsl/cs541/{name}")).unwrap();
+    let (handouts, unshadowed) = (read("lighting.frag"), read("lighting_unshadowed.frag"));
+    let test = [
+        "shadow_sampler",
+        "shadow_depth",
+        "point_depth",
+        "epsilon",
+        "bool shadows",
+        "bool illuminated",
+    ];
+    let rest = without(&handouts, &test);
+    assert!(rest.len() > 30, "{}", rest.len());
+    assert_eq!(rest, without(&unshadowed, &test));
+    assert!(!unshadowed.contains("sampler2D shadow"));
+    // The control.
+    let edited = unshadowed.replace("normalize(", "(");
+    assert_ne!(rest, without(&edited, &test));
+}
+
+/// Without shadows is as it would be if nothing cast one.
+#[test]
+fn shadows_off_looks_as_if_nothing_cast_a_shadow() {
+    let mut no_casters = scene();
+    for object in &mut no_casters.objects {
+        object.casts = false;
+    }
+    for setting in ["beam=rectangular", "beam=circular", "light=point"] {
+        let off = Bench::new("cs541", SIZE, &[setting, "shadows=off"]).picture();
+        let expected = Bench::with_scene("cs541", no_casters.clone(), SIZE, &[setting]).picture();
+        assert_eq!(differing(&off, &expected), 0, "{setting}");
+        let shadowed = Bench::new("cs541", SIZE, &[setting]).picture();
+        assert!(differing(&off, &shadowed) > 1000, "the control: {setting}");
+    }
+}
+
+/// A student's own lighting is what is seen without shadows, too.
+#[test]
+fn shadows_off_is_drawn_by_a_students_own_shader() {
+    let folder = work_folder("cs541-unshadowed");
+    let handouts = std::fs::read_to_string("glsl/cs541/lighting.frag").unwrap();
+    let own = handouts.replace(
+        "frag_color = vec4(color, 1)",
+        "frag_color = vec4(color.bgr, 1)",
+    );
+    std::fs::write(folder.join("lighting.frag"), own).unwrap();
+    let mut students = Bench::with_glsl("cs541", &folder, SIZE);
+    students.set(&["shadows=off"]);
+    let students = students.picture();
+    let off = Bench::new("cs541", SIZE, &["shadows=off"]).picture();
+    assert!(differing(&students, &off) > 10_000);
+}
+
+/// The scene with a triangle in the middle of each mesh, too small to be seen: none of them is a solid then.
+fn without_solids(mut scene: Scene) -> Scene {
+    for object in &mut scene.objects {
+        let mesh = Arc::make_mut(&mut object.mesh);
+        let middle = mesh.positions.iter().sum::<DVec3>() / mesh.positions.len() as f64;
+        let first = mesh.positions.len() as u32;
+        for corner in [DVec3::ZERO, DVec3::X, DVec3::Y] {
+            mesh.positions.push(middle + 1e-9 * corner);
+            mesh.normals.push(DVec3::Z);
+            mesh.texture_coords.push(glam::DVec2::ZERO);
+        }
+        mesh.faces.push([first, first + 1, first + 2]);
+    }
+    scene
+}
+
+/// Back faces are left out where they are hidden and nowhere else.
+#[test]
+fn what_is_not_drawn_of_a_solid_is_not_seen() {
+    let sphere = scene()
+        .objects
+        .iter()
+        .position(|o| o.name == "sphere")
+        .unwrap();
+    let edited = |edit: &dyn Fn(&mut Scene)| {
+        let mut scene = scene();
+        edit(&mut scene);
+        scene
+    };
+    let middle = scene().objects[sphere].placement.w_axis.truncate();
+    let cases = [
+        ("outside", scene()),
+        ("inside", edited(&|scene| scene.camera.eye = middle)),
+        // The near plane, 0.1 away, cuts a sphere of 0.7 open.
+        (
+            "at its skin",
+            edited(&|scene| {
+                scene.camera.eye = middle - 0.75 * scene.camera.look.normalize();
+            }),
+        ),
+        (
+            "inside out",
+            edited(&|scene| {
+                let mesh = Arc::make_mut(&mut scene.objects[sphere].mesh);
+                mesh.faces.iter_mut().for_each(|face| face.swap(0, 1));
+            }),
+        ),
+        (
+            "mirrored",
+            edited(&|scene| {
+                scene.objects[sphere].placement *= DMat4::from_scale(dvec3(-1.0, 1.0, 1.0));
+            }),
+        ),
+    ];
+    for (name, scene) in cases {
+        let drawn = Bench::with_scene("cs541", scene.clone(), SIZE, &[]).picture();
+        let all = without_solids(scene.clone());
+        let all = Bench::with_scene("cs541", all, SIZE, &[]).picture();
+        // At its outline, front and back have the same depth but for rounding.
+        assert!(differing(&drawn, &all) < 5, "{name}");
+        let mut none = scene;
+        none.objects.remove(sphere);
+        let none = Bench::with_scene("cs541", none, SIZE, &[]).picture();
+        assert!(differing(&drawn, &none) > 200, "the control: {name}");
+    }
+}
+
+/// The nearest is drawn first, whatever the scene's order.
+#[test]
+fn the_order_of_the_objects_is_not_seen() {
+    let mut backwards = scene();
+    backwards.objects.reverse();
+    let here = Bench::new("cs541", SIZE, &[]).picture();
+    let there = Bench::with_scene("cs541", backwards, SIZE, &[]).picture();
+    // Of two surfaces that meet, the first one that is drawn has the pixel where they have the same depth.
+    assert!(differing(&here, &there) < 5);
+    let mut moved = scene();
+    moved.objects[3].placement.w_axis.x += 0.1;
+    let moved = Bench::with_scene("cs541", moved, SIZE, &[]).picture();
+    assert!(differing(&here, &moved) > 100, "the control");
 }

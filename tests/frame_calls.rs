@@ -39,6 +39,11 @@ const CASES: &[Case] = &[
     },
     Case {
         lab: "cs541",
+        settings: &["redraw=every_frame", "shadows=off"],
+        passes: &[("second pass: local illumination alone", 16)],
+    },
+    Case {
+        lab: "cs541",
         settings: &["redraw=every_frame", "shadow_test=exact"],
         passes: &[
             ("the light buffer", 0),

@@ -121,6 +121,10 @@ fn check_row(row: &Value) {
     assert_eq!(row["frame"]["ratio_95"], Value::Null);
     let outside = row["outside_gl"].as_f64().unwrap();
     assert!(outside > 0.0 && outside < 1.0, "{row}");
+    assert!(row["outside_gl_ms"].as_f64().unwrap() > 0.0, "{row}");
+    // No row here is without shadows.
+    assert_eq!(row["look_ups"], Value::Null);
+    assert_eq!(row["shading_ms"], Value::Null);
     let calls = &row["gl_calls"];
     assert!(calls["rest"].as_u64().unwrap() > 10, "{row}");
     assert!(calls["frame"].as_u64() > calls["rest"].as_u64(), "{row}");
@@ -199,6 +203,7 @@ fn check_csv(path: &Path, comparisons: &[Value]) {
         assert_eq!(field("chosen"), row["chosen"].to_string());
         assert_eq!(field("rounds"), "2");
         assert_eq!(field("frame_ratio_low"), "");
+        assert_eq!(field("look_ups_ms"), "");
     }
 }
 
@@ -207,7 +212,9 @@ fn check_page(path: &Path) {
     assert_eq!(links(&page), [""; 0]);
     assert!(page.contains("SOFTWARE RENDERER") && page.contains("llvmpipe"));
     assert!(!page.contains("INTERRUPTED"));
-    assert_eq!(page.matches("<svg").count(), 2);
+    // Error against time, and the frame in bars.
+    assert_eq!(page.matches("<svg").count(), 2 * 2);
+    assert!(page.contains("lighting, look-ups and all") && !page.contains("look-ups</li>"));
     // Each row is a disc and its rim, and has a line of the table and a thumbnail.
     assert_eq!(page.matches("<circle").count(), 2 * 6);
     assert_eq!(page.matches("class=\"name\"").count(), 6);
@@ -231,6 +238,44 @@ fn check_page(path: &Path) {
         let edited = format!("{page}{edit}");
         assert_eq!(links(&edited).len(), 1, "{edit}");
     }
+}
+
+/// Where a row is without shadows, the lighting of the others falls into look-ups and shading.
+#[test]
+fn the_frame_is_taken_apart() {
+    let folder = work_folder("report-parts");
+    succeeded(shadowlab(
+        &folder,
+        "report cs541 --sweep shadows=on,off --rounds 2 -o r",
+    ));
+    let report = read_json(&folder.join("r/report.json"));
+    let rows = list(&report["labs"][0]["comparisons"][0]["rows"]);
+    assert_eq!(rows[1]["settings"], json!(["shadows=off"]));
+    let number = |value: &Value| value.as_f64().unwrap();
+    let look_ups = |row: usize| number(&rows[row]["look_ups"]["ms"]);
+    assert_eq!(look_ups(1), 0.0);
+    // Medians of two rounds are means.
+    let lighting = |row: usize| number(&rows[row]["lighting"]["ms"]);
+    assert!((look_ups(0) - (lighting(0) - lighting(1))).abs() < 1e-9);
+    for (row, value) in rows.iter().enumerate() {
+        let (shading, outside) = (
+            number(&value["shading_ms"]),
+            number(&value["outside_gl_ms"]),
+        );
+        let in_gl = lighting(row) - look_ups(row);
+        assert!(shading < in_gl && in_gl < shading + outside, "{value}");
+    }
+    let mut csv = csv::Reader::from_path(folder.join("r/report.csv")).unwrap();
+    let column = csv
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|name| name == "shading_ms");
+    let record = csv.records().next().unwrap().unwrap();
+    let written: f64 = record[column.unwrap()].parse().unwrap();
+    assert!((written - number(&rows[0]["shading_ms"])).abs() < 1e-9);
+    let page = std::fs::read_to_string(folder.join("r/index.html")).unwrap();
+    assert!(page.contains("look-ups</li>"));
 }
 
 /// Started with far more rounds than anybody waits for.
@@ -309,10 +354,23 @@ fn passes_are_timed_only_on_demand() {
             trace::Event::Pass(name) => Some(name.as_str()),
             trace::Event::Call(_) => None,
         });
-        let timed = passes.iter().map(|(name, _)| name.as_str());
+        let timed = passes.iter().map(|pass| pass.name.as_str());
         assert_eq!(timed.collect::<Vec<_>>(), headings.collect::<Vec<_>>());
-        assert!(passes.len() >= 2 && passes.iter().all(|(_, ms)| *ms > 0.0));
+        assert!(passes.len() >= 2 && passes.iter().all(|pass| pass.ms > 0.0));
+        assert!(
+            passes.iter().all(|pass| pass.in_calls_ms == 0.0),
+            "nobody watches"
+        );
         assert_eq!(finishes(&events), 2 * passes.len(), "the control");
+        let watched = trace::in_calls(|| gl::time_passes(|| bench.render()));
+        let (((), passes), inside) = watched;
+        assert!(
+            passes
+                .iter()
+                .all(|pass| 0.0 < pass.in_calls_ms && pass.in_calls_ms < pass.ms)
+        );
+        let in_passes: f64 = passes.iter().map(|pass| pass.in_calls_ms).sum();
+        assert!(in_passes < 1000.0 * inside.as_secs_f64());
         bench.render();
         assert_eq!(finishes(&trace::take()), 0, "{}", lab.name);
     }

@@ -26,7 +26,7 @@ pub use read::{
 };
 pub use shader::{Program, Shaders};
 pub use texture::{Textures, distinct, largest_texture, levels, solid_texture, texture};
-pub use timer::{finish, time_passes};
+pub use timer::{PassTime, finish, time_passes};
 pub use uniform::Value;
 
 /// Names the calls from here until the returned guard is dropped: a heading in the trace, a timer in the report, and a

@@ -47,6 +47,12 @@ impl Shaders {
         })
     }
 
+    /// Whether the student has a file of that name.
+    pub fn has_own(&self, name: &str) -> bool {
+        let students = self.students.as_ref();
+        students.is_some_and(|folder| is_there(&folder.join(name)))
+    }
+
     /// The text of a shader, and the path that a message about it names.
     fn read(&self, name: &str) -> Result<Source> {
         if let Some(path) = self.students.as_ref().map(|folder| folder.join(name))

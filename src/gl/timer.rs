@@ -1,20 +1,32 @@
 //! How long each pass takes: off, and then no more than a look at a flag, until [`time_passes`] asks.
 
 use std::cell::RefCell;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glow::HasContext;
 
+use super::trace;
+
 thread_local! {
-    /// Of the passes that have ended: the heading, and milliseconds. None while nobody asks.
-    static PASSES: RefCell<Option<Vec<(String, f64)>>> = const { RefCell::new(None) };
+    /// Those that have ended. None while nobody asks.
+    static PASSES: RefCell<Option<Vec<PassTime>>> = const { RefCell::new(None) };
 }
 
-/// The passes that `draw` makes, in their order: each one's heading, and how many milliseconds it took.
+/// How long a pass took, in milliseconds.
+#[derive(Clone, Debug)]
+pub struct PassTime {
+    /// Its heading.
+    pub name: String,
+    pub ms: f64,
+    /// What of that was spent in GL calls, where [`trace::in_calls`] watches them.
+    pub in_calls_ms: f64,
+}
+
+/// The passes that `draw` makes, in their order.
 ///
 /// The driver finishes before and after each pass, so that a pass pays for its own work and for no other's; the sum may
 /// be more than the frame takes when nobody waits between its passes.
-pub fn time_passes<T>(draw: impl FnOnce() -> T) -> (T, Vec<(String, f64)>) {
+pub fn time_passes<T>(draw: impl FnOnce() -> T) -> (T, Vec<PassTime>) {
     PASSES.set(Some(Vec::new()));
     let drawn = draw();
     (drawn, PASSES.take().unwrap_or_default())
@@ -29,6 +41,7 @@ pub fn finish(gl: &glow::Context) {
 pub(super) struct Timed {
     name: String,
     begun: Instant,
+    inside: Duration,
 }
 
 /// None while nobody asks.
@@ -37,17 +50,26 @@ pub(super) fn begin(gl: &glow::Context, name: &str) -> Option<Timed> {
     asked.then(|| {
         let name = name.to_owned();
         finish(gl);
-        let begun = Instant::now();
-        Timed { name, begun }
+        let (begun, inside) = (Instant::now(), trace::so_far());
+        Timed {
+            name,
+            begun,
+            inside,
+        }
     })
 }
 
-pub(super) fn end(gl: &glow::Context, Timed { name, begun }: Timed) {
+pub(super) fn end(gl: &glow::Context, timed: Timed) {
     finish(gl);
-    let milliseconds = 1000.0 * begun.elapsed().as_secs_f64();
+    let ms = |time: Duration| 1000.0 * time.as_secs_f64();
+    let ended = PassTime {
+        name: timed.name,
+        ms: ms(timed.begun.elapsed()),
+        in_calls_ms: ms(trace::so_far().saturating_sub(timed.inside)),
+    };
     PASSES.with_borrow_mut(|passes| {
         if let Some(passes) = passes {
-            passes.push((name, milliseconds));
+            passes.push(ended);
         }
     });
 }

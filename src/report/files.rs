@@ -25,6 +25,11 @@ const COLUMNS: &[&str] = &[
     "shadow_pass_ms_p95",
     "lighting_ms",
     "lighting_ms_p95",
+    "look_ups_ms",
+    "look_ups_ms_low",
+    "look_ups_ms_high",
+    "shading_ms",
+    "outside_gl_ms",
     "outside_gl",
     "gl_calls",
     "gl_calls_rest",
@@ -107,7 +112,12 @@ fn records(lab: &LabReport, compared: &Compared) -> Vec<Vec<String>> {
                     .iter()
                     .map(f64::to_string),
             );
-            record.push(summary.outside_gl.to_string());
+            let look_ups = summary.look_ups.as_ref();
+            let interval = look_ups.and_then(|look_ups| look_ups.interval_95);
+            record.push(optional(look_ups.map(|look_ups| look_ups.ms)));
+            record.extend([0, 1].map(|end| optional(interval.map(|ends| ends[end]))));
+            record.push(optional(summary.shading()));
+            record.extend([summary.outside_gl_ms, summary.outside_gl].map(|x| x.to_string()));
             record.extend([row.calls.frame, row.calls.rest].map(|calls| calls.to_string()));
             let bytes = row.bytes;
             record.extend([bytes.drawn_into, bytes.textures, bytes.buffers].map(|b| b.to_string()));
@@ -182,6 +192,12 @@ fn comparison_json(compared: &Compared) -> Value {
             "rest": timing(&summary.rest),
             "shadow_pass": pass(summary.shadow_pass),
             "lighting": pass(summary.lighting),
+            "look_ups": summary.look_ups.as_ref().map(|look_ups| json!({
+                "ms": look_ups.ms,
+                "ms_95": look_ups.interval_95,
+            })),
+            "shading_ms": summary.shading(),
+            "outside_gl_ms": summary.outside_gl_ms,
             "outside_gl": summary.outside_gl,
             "gl_calls": { "frame": row.calls.frame, "rest": row.calls.rest },
             "bytes": {

@@ -10,6 +10,7 @@
 //! | `statistics.rs` | medians and intervals of a sample |
 //! | `thumbnail.rs` | the mistakes, small |
 //! | `plot.rs` | error against time |
+//! | `bars.rs` | a frame taken apart |
 //! | `page.rs`, `files.rs` | the page; CSV and JSON |
 //! | `words.rs` | figures and rows as a reader sees them |
 //! | `machine.rs` | what it was measured on |
@@ -18,6 +19,7 @@
 //! by its settings and by [`Lab`](crate::labs::Lab) alone, so whatever else is a lab with settings can be reported on.
 
 mod advice;
+mod bars;
 mod files;
 mod machine;
 mod page;

@@ -5,9 +5,8 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::run::Row;
-use super::statistics::Sample;
 use super::summary::{Summary, Timing};
-use super::{Compared, LabReport, Report, advice, plot, words};
+use super::{Compared, LabReport, Report, advice, bars, plot, words};
 use crate::labs::Setting;
 use crate::measure::{Figures, Wrong};
 
@@ -72,7 +71,10 @@ fn reading() -> Markup {
                  lies with 95 % certainty, by order statistics. Times are wall time from an idle driver to an idle driver: \
                  the median, and the 95th percentile behind it. " b { "moving" } ": light or casters move, so the shadow \
                  pass is drawn. " b { "at rest" } ": the map of an earlier frame serves on. Shadow pass and lighting are \
-                 each waited for, so their sum may be more than the frame. " b { "outside GL" } " is the share of such a \
+                 each waited for, so their sum may be more than the frame. " b { "look-ups" } ": what the lighting takes more than in \
+                 the row with shadows=off, of the same round. Where a lab's shader only branches around its test, a \
+                 software driver looks up all the same, and they seem to cost nothing. " b { "shading" } ": the rest of \
+                 the lighting. " b { "outside GL" } " is the share of such a \
                  frame in which the program was in no GL call, its clock counted in: an upper bound."
             }
             p {
@@ -126,7 +128,7 @@ fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
              front: "
             (front(compared, &summaries)) "."
         }
-        (taken_apart(compared, &summaries))
+        (taken_apart(&summaries))
         div.wide { (rows(compared, &summaries)) }
         h4 { "Where they are wrong" }
         p { "False shadow red, false light blue, shadow dark grey, light bright grey. A mistake of a single pixel is kept." }
@@ -165,36 +167,30 @@ fn capitalised(text: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// The handout's frame: the shadow pass, the look-ups (which a row with shadows=off does without), the rest of the
-/// shading, and what is not GL.
-fn taken_apart(compared: &Compared, summaries: &[Summary]) -> Markup {
+/// The frame of each row in bars, and the handout's in words.
+fn taken_apart(summaries: &[Summary]) -> Markup {
     let handouts = &summaries[0];
-    let off = compared
-        .rows
-        .iter()
-        .find(|row| row.differences == ["shadows=off"]);
-    let lookups = off.map(|off| {
-        let rounds = compared.rows[0].times.iter().zip(&off.times);
-        Sample::new(rounds.map(|(with, without)| with.lighting - without.lighting))
-    });
+    let ms = words::milliseconds;
     html! {
+        h4 { "The frame, taken apart" }
         p {
-            "The handout's frame, taken apart: shadow pass " (words::milliseconds(handouts.shadow_pass[0])) " ms, "
-            @match lookups {
-                Some(lookups) => {
-                    "look-ups " (words::milliseconds(lookups.median())) " ms ("
-                    @match lookups.interval_95() {
-                        Some([low, high]) => {
-                            "95 %: " (words::milliseconds(low)) " to " (words::milliseconds(high))
-                        }
+            "The handout's: shadow pass " (ms(handouts.shadow_pass[0])) " ms, "
+            @match (&handouts.look_ups, handouts.shading()) {
+                (Some(look_ups), Some(shading)) => {
+                    "look-ups " (ms(look_ups.ms)) " ms ("
+                    @match look_ups.interval_95 {
+                        Some([low, high]) => { "95 %: " (ms(low)) " to " (ms(high)) }
                         None => { "too few rounds to be sure" }
                     }
-                    "), the rest of the shading "
-                    (words::milliseconds(handouts.lighting[0] - lookups.median())) " ms, "
+                    "), the rest of the shading " (ms(shading)) " ms, "
                 }
-                None => { "lighting with its look-ups " (words::milliseconds(handouts.lighting[0])) " ms, " }
+                _ => { "lighting with its look-ups " (ms(handouts.lighting[0])) " ms, " }
             }
             "outside of GL " (words::percent(handouts.outside_gl)) "."
+        }
+        div.plot { (PreEscaped(bars::svg(summaries))) }
+        ul.legend {
+            @for (name, color) in bars::legend(summaries) { li { b style=(swatch(color)) {} (name) } }
         }
     }
 }
@@ -210,6 +206,7 @@ fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
                     th colspan="2" { "wrong pixels: all = edge1 + edgeT + interior" }
                     th {} th {} th {}
                     th colspan="4" { "ms (p95)" }
+                    th colspan="2" { "ms" }
                     th {} th { "GL calls" } th { "MiB" }
                 }
                 tr {
@@ -218,6 +215,7 @@ fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
                     th { "false shadow" } th { "false light" }
                     th { "grey" } th { "gap" } th { "ambiguous" }
                     th { "moving" } th { "at rest" } th { "shadow pass" } th { "lighting" }
+                    th { "look-ups" } th { "shading" }
                     th { "outside GL" } th { "moving, at rest" } th { "all (maps)" }
                 }
             }
@@ -235,6 +233,8 @@ fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
                             td { (milliseconds([*ms, *ms_95])) }
                         }
                         td { (milliseconds(summary.shadow_pass)) } td { (milliseconds(summary.lighting)) }
+                        td { (or_dash(summary.look_ups.as_ref().map(|look_ups| look_ups.ms))) }
+                        td { (or_dash(summary.shading())) }
                         td { (words::percent(summary.outside_gl)) }
                         td { (row.calls.frame) ", " (row.calls.rest) }
                         td { (words::mebibytes(row.bytes.total())) " (" (words::mebibytes(row.bytes.drawn_into)) ")" }
@@ -259,6 +259,11 @@ fn milliseconds([median, percentile_95]: [f64; 2]) -> String {
         words::milliseconds(median),
         words::milliseconds(percentile_95)
     )
+}
+
+/// Milliseconds, where there are any.
+fn or_dash(milliseconds: Option<f64>) -> String {
+    milliseconds.map_or("–".to_owned(), words::milliseconds)
 }
 
 /// What is said of each light, one behind the other.

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::Result;
-use crate::gl;
 use crate::gl::trace::{self, Bytes, Memory};
+use crate::gl::{self, PassTime};
 use crate::headless::Headless;
 use crate::labs::{Handout, Lab, Settings, Show};
 use crate::measure::Figures;
@@ -59,8 +59,13 @@ pub struct Times {
     pub shadow_pass: f64,
     /// and the others.
     pub lighting: f64,
-    /// The share of that frame that was not spent in GL calls.
+    /// What of these two was spent in GL calls.
+    pub shadow_pass_in_gl: f64,
+    pub lighting_in_gl: f64,
+    /// The share of that frame that was not,
     pub outside_gl: f64,
+    /// and its milliseconds.
+    pub outside_gl_ms: f64,
 }
 
 /// A row that is being measured.
@@ -208,7 +213,7 @@ fn prepare(
     };
     Ok(Running {
         settings,
-        rest_passes: passes.into_iter().map(|(name, _)| name).collect(),
+        rest_passes: passes.into_iter().map(|pass| pass.name).collect(),
         row,
     })
 }
@@ -232,20 +237,25 @@ fn visit(subject: &mut Subject, running: &Running) -> Result<Times> {
     });
     let taken_apart = begun.elapsed();
     drawn?;
-    let rests = |name: &String| running.rest_passes.contains(name);
-    let sum = |at_rest: bool| {
-        let chosen = passes.iter().filter(|(name, _)| rests(name) == at_rest);
+    let rests = |pass: &&PassTime| running.rest_passes.contains(&pass.name);
+    let sum = |at_rest: bool, time: fn(&PassTime) -> f64| {
+        let chosen = passes.iter().filter(|pass| rests(pass) == at_rest);
         // Of no pass at all it is 0, where a sum of f64 is −0.
-        chosen.fold(0.0, |sum, (_, milliseconds)| sum + milliseconds)
+        chosen.fold(0.0, |sum, pass| sum + time(pass))
     };
+
+    let outside = taken_apart.saturating_sub(inside).as_secs_f64();
 
     lab.settings().set("redraw=when_changed")?;
     Ok(Times {
         frame,
         rest: timed(subject.context, lab)?,
-        shadow_pass: sum(false),
-        lighting: sum(true),
-        outside_gl: 1.0 - inside.as_secs_f64() / taken_apart.as_secs_f64(),
+        shadow_pass: sum(false, |pass| pass.ms),
+        lighting: sum(true, |pass| pass.ms),
+        shadow_pass_in_gl: sum(false, |pass| pass.in_calls_ms),
+        lighting_in_gl: sum(true, |pass| pass.in_calls_ms),
+        outside_gl: outside / taken_apart.as_secs_f64(),
+        outside_gl_ms: 1000.0 * outside,
     })
 }
 

@@ -37,7 +37,7 @@ pub use args::{Arg, Names, Object, ObjectKind};
 pub use functions::{FORWARDED, FUNCTIONS};
 pub use memory::{Bytes, Memory};
 pub use text::to_c;
-pub use watch::{in_calls, unrecorded};
+pub use watch::{in_calls, so_far, unrecorded};
 
 /// One entry of the record.
 #[derive(Clone, Debug, PartialEq)]

@@ -34,6 +34,14 @@ pub fn in_calls<T>(draw: impl FnOnce() -> T) -> (T, Duration) {
     }
 }
 
+/// How long the draw that [`in_calls`] watches was in the driver until now; nothing where none is watched.
+pub fn so_far() -> Duration {
+    match WATCH.get() {
+        Watch::Time(inside) => inside,
+        Watch::Record | Watch::Nothing => Duration::ZERO,
+    }
+}
+
 pub(super) fn records() -> bool {
     WATCH.get() == Watch::Record
 }

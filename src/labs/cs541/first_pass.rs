@@ -120,6 +120,8 @@ impl Cs541 {
             }
 
             if inputs.front_face_culling {
+                // GL's default, which the second pass counts on.
+                gl.cull_face(glow::BACK);
                 gl.disable(glow::CULL_FACE);
             }
             // Done with the shadow map: select the default frame buffer, that is, the window.

@@ -15,6 +15,7 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
+mod draw_order;
 mod exact_test;
 mod explain;
 mod first_pass;
@@ -37,9 +38,10 @@ use crate::Result;
 use crate::gl::{self, Program, Shaders};
 use crate::picture::Projection;
 use crate::scene::{Camera, Light, Object, Scene, rotate, shapes};
+use draw_order::Outline;
 use exact_test::Exact;
 use first_pass::MapInputs;
-use programs::{Programs, SHADERS};
+use programs::{Programs, SHADERS, unshadowed_program};
 use second_pass::Sky;
 use settings::{DRAG_STEP, EYE_STEP, FOV_STEP, KEYS, LIGHT_STEP, SETTINGS};
 use shadow_buffer::{ShadowBuffer, ShadowBufferKind};
@@ -74,6 +76,7 @@ struct Cs541 {
     /// What both passes draw: one mesh and one texture for each object of the scene.
     meshes: Vec<gl::Mesh>,
     textures: Vec<glow::Texture>,
+    outlines: Vec<Outline>,
 
     shaders: Shaders,
     programs: Programs,
@@ -86,6 +89,8 @@ struct Cs541 {
 
     /// What only the setting shadow_test asks for.
     exact: Option<Exact>,
+    /// What only shadows=off asks for.
+    unshadowed: Option<Program>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
     explainer: Option<Program>,
@@ -99,17 +104,20 @@ impl Cs541 {
         let largest_map = gl::largest_texture(gl);
         let kind = ShadowBufferKind::new(largest_map, &settings);
         let shadow_buffer = ShadowBuffer::new(gl, kind)?;
-        // The driver compiles on one core; the textures' smaller levels need no driver and are averaged on another.
+        // The driver compiles on one core; what needs no driver is done on another: the textures' smaller levels, and
+        // which meshes are solid.
         let pictures = scene.objects.iter().map(|object| &object.material.texture);
         let pictures = gl::distinct(pictures.chain([&scene.sky]).flatten());
-        let (programs, levels) = std::thread::scope(|scope| {
+        let (programs, (levels, outlines)) = std::thread::scope(|scope| {
             let levels = pictures.iter().map(|picture| gl::levels(picture));
-            let levels = scope.spawn(|| levels.collect::<Vec<_>>());
+            let outlines = scene
+                .objects
+                .iter()
+                .map(|object| Outline::new(&object.mesh));
+            let beside = || (levels.collect::<Vec<_>>(), outlines.collect::<Vec<_>>());
+            let beside = scope.spawn(beside);
             let programs = Programs::new(gl, &shaders);
-            (
-                programs,
-                levels.join().expect("pictures are averaged without panic"),
-            )
+            (programs, beside.join().expect("it ends without panic"))
         });
         let programs = programs?;
 
@@ -145,6 +153,7 @@ impl Cs541 {
             look_from_light: false,
             meshes,
             textures,
+            outlines,
             shaders,
             programs,
             largest_map,
@@ -152,6 +161,7 @@ impl Cs541 {
             drawn: None,
             sky,
             exact: None,
+            unshadowed: None,
             visibility: None,
             explainer: None,
         })
@@ -172,6 +182,15 @@ impl Cs541 {
                 self.draw_shadow_map(gl, &inputs);
                 self.drawn = Some(inputs);
             }
+        }
+        Ok(())
+    }
+
+    /// The program for shadows=off. A student's own lighting shader has no such twin and draws it itself.
+    fn prepare_unshadowed(&mut self, gl: &glow::Context) -> Result<()> {
+        let wanted = !self.settings.switch("shadows") && !self.shaders.has_own("lighting.frag");
+        if wanted && self.unshadowed.is_none() {
+            self.unshadowed = Some(unshadowed_program(gl, &self.shaders)?);
         }
         Ok(())
     }
@@ -273,7 +292,10 @@ impl Lab for Cs541 {
             self.prepare_shadow_map(gl)?;
         }
         match show {
-            Show::Picture => self.draw_scene(gl),
+            Show::Picture => {
+                self.prepare_unshadowed(gl)?;
+                self.draw_scene(gl);
+            }
             Show::Visibility { .. } => self.draw_visibility(gl)?,
         }
         Ok(())
@@ -287,7 +309,11 @@ impl Lab for Cs541 {
                 .inspect_err(|_| programs.delete(gl))?;
         }
         std::mem::replace(&mut self.programs, programs).delete(gl);
-        let made_on_demand = [self.visibility.take(), self.explainer.take()];
+        let made_on_demand = [
+            self.unshadowed.take(),
+            self.visibility.take(),
+            self.explainer.take(),
+        ];
         for program in made_on_demand.into_iter().flatten() {
             program.delete(gl);
         }

@@ -24,6 +24,10 @@ pub const SHADERS: &[(&str, &str)] = &[
         include_str!("../../../glsl/cs541/lighting.frag"),
     ),
     (
+        "lighting_unshadowed.frag",
+        include_str!("../../../glsl/cs541/lighting_unshadowed.frag"),
+    ),
+    (
         "visibility.frag",
         include_str!("../../../glsl/cs541/visibility.frag"),
     ),
@@ -59,6 +63,9 @@ pub const SHADOW_TEST: [&str; 6] = [
     "shadows",
     "beam",
 ];
+
+/// Of those, what the beam alone asks for.
+const BEAM: [&str; 3] = ["shadow_persp_matrix", "shadow_view_matrix", "beam"];
 
 /// Uniforms of the exact shadow test.
 const EXACT_TEST: [&str; 3] = ["light_model_matrix", "first_triangle", "beam"];
@@ -133,6 +140,20 @@ pub fn visibility_program(gl: &glow::Context, shaders: &Shaders) -> Result<Progr
         ObjectKind::Program,
         program.handle.0.get(),
         "visibility_program",
+    );
+    Ok(program)
+}
+
+/// The second pass without shadows; made when it is first asked for.
+pub fn unshadowed_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the lighting program without shadows");
+    let uniforms = [&MATRICES[..], &BEAM, &LIGHTING].concat();
+    let fragment = "lighting_unshadowed.frag";
+    let program = Program::new(gl, shaders, "lighting.vert", fragment, &uniforms)?;
+    name_object(
+        ObjectKind::Program,
+        program.handle.0.get(),
+        "unshadowed_program",
     );
     Ok(program)
 }

@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4, DVec3};
 use glow::HasContext;
 
 use super::Cs541;
+use super::draw_order::{Drawn, set_culling};
 use super::programs::visibility_program;
 use crate::Result;
 use crate::gl::{self, Program};
@@ -71,18 +72,24 @@ impl Cs541 {
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
         let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let shadows = self.settings.switch("shadows");
+        let unshadowed = self.unshadowed.as_ref().filter(|_| !shadows);
         let _pass = gl::pass(
             gl,
-            match exact {
-                Some(_) => "second pass: using the light buffer",
-                None => "second pass: using the shadow map",
+            match (exact, unshadowed) {
+                (Some(_), _) => "second pass: using the light buffer",
+                (None, Some(_)) => "second pass: local illumination alone",
+                (None, None) => "second pass: using the shadow map",
             },
         );
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         self.select_window(gl, [red, green, blue, 1.0]);
-        self.draw_sky(gl);
+        let mut bound = self.draw_sky(gl);
 
-        let program = exact.map_or(&self.programs.lighting, |exact| &exact.lighting);
+        let program = match exact {
+            Some(exact) => &exact.lighting,
+            None => unshadowed.unwrap_or(&self.programs.lighting),
+        };
         let eye = self.camera().eye;
         let Light {
             position, color, ..
@@ -90,6 +97,7 @@ impl Cs541 {
         unsafe { gl.use_program(Some(program.handle)) };
         match exact {
             Some(exact) => self.use_light_buffer(gl, exact, program),
+            None if unshadowed.is_some() => self.use_light_camera(gl, program),
             None => self.use_shadow_map(gl, program),
         }
         program.set(gl, "usampler", 0);
@@ -97,20 +105,23 @@ impl Cs541 {
         program.set(gl, "light_position", position - eye);
         program.set(gl, "light_color", color);
         program.set(gl, "ambient_color", self.scene.ambient);
-        unsafe { gl.active_texture(glow::TEXTURE0) };
-        let mut bound = None;
-        for (index, object) in self.scene.objects.iter().enumerate() {
+        if unshadowed.is_none() {
+            // The map or the light buffer was bound last.
+            unsafe { gl.active_texture(glow::TEXTURE0) };
+        }
+        let mut culling = false;
+        for drawn in self.draw_order() {
+            let Drawn { index, model, .. } = drawn;
             let Material {
                 diffuse,
                 specular,
                 shininess,
                 ..
-            } = object.material;
+            } = self.scene.objects[index].material;
             let texture = self.textures[index];
             if bound.replace(texture) != Some(texture) {
                 unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
             }
-            let model = self.model_from(eye, object);
             program.set(gl, "model_matrix", model);
             if let Some(exact) = exact {
                 self.set_exact_test(gl, exact, program, index);
@@ -123,8 +134,10 @@ impl Cs541 {
             program.set(gl, "diffuse_color", diffuse);
             program.set(gl, "specular_color", specular);
             program.set(gl, "shininess", shininess);
+            set_culling(gl, &mut culling, drawn.hides_back_faces);
             self.meshes[index].draw(gl);
         }
+        set_culling(gl, &mut culling, false);
     }
 
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
@@ -141,14 +154,16 @@ impl Cs541 {
             Some(exact) => self.use_light_buffer(gl, exact, program),
             None => self.use_shadow_map(gl, program),
         }
-        let eye = self.camera().eye;
-        for (index, object) in self.scene.objects.iter().enumerate() {
-            program.set(gl, "model_matrix", self.model_from(eye, object));
+        let mut culling = false;
+        for drawn in self.draw_order() {
+            program.set(gl, "model_matrix", drawn.model);
             if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index);
+                self.set_exact_test(gl, exact, program, drawn.index);
             }
-            self.meshes[index].draw(gl);
+            set_culling(gl, &mut culling, drawn.hides_back_faces);
+            self.meshes[drawn.index].draw(gl);
         }
+        set_culling(gl, &mut culling, false);
         Ok(())
     }
 
@@ -174,6 +189,11 @@ impl Cs541 {
         program.set(gl, "shadow_sampler", 1);
         program.set(gl, "epsilon", self.epsilon());
         program.set(gl, "shadows", i32::from(self.settings.switch("shadows")));
+        self.use_light_camera(gl, program);
+    }
+
+    /// Both cameras, and the beam.
+    fn use_light_camera(&self, gl: &glow::Context, program: &Program) {
         program.set(gl, "beam", self.beam());
         self.set_camera(gl, program);
 
@@ -198,14 +218,16 @@ impl Cs541 {
         DMat4::from_translation(-eye) * object.model(self.time)
     }
 
-    /// The sky dome, around the eye and behind everything, and the marker that shows where the light is.
-    fn draw_sky(&self, gl: &glow::Context) {
+    /// The sky dome, around the eye and behind everything, and the marker that shows where the light is. Returns the
+    /// texture that is bound now.
+    fn draw_sky(&self, gl: &glow::Context) -> Option<glow::Texture> {
         let program = &self.programs.unlit;
         let Sky {
             dome,
             texture,
             marker_texture,
         } = &self.sky;
+        let mut bound = *texture;
         let camera = self.camera();
         let dome_planes = Camera {
             near: 0.01,
@@ -239,7 +261,8 @@ impl Cs541 {
         let radius = MARKER_RADIUS * light.near;
         // From within, the marker would hide everything.
         if offset.length() > 2.0 * radius {
-            unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(*marker_texture)) };
+            bound = Some(*marker_texture);
+            unsafe { gl.bind_texture(glow::TEXTURE_2D, bound) };
             let model = DMat4::from_translation(offset) * DMat4::from_scale(DVec3::splat(radius));
             program.set(gl, "persp_matrix", camera.perspective(self.aspect()));
             program.set(gl, "model_matrix", model);
@@ -250,5 +273,6 @@ impl Cs541 {
                 dome.draw(gl);
             }
         }
+        bound
     }
 }

@@ -38,6 +38,7 @@ pub use builder::{Builder, LightBuffer, Placed};
 pub use gpu::{Binding, ExactTest, LIGHT_BUFFER};
 pub use grid::{Cell, Layout};
 pub use space::{LightSpace, Rays};
+pub use topology::Topology;
 
 /// The file of [`super::SHADERS`].
 pub const SHADER: &str = "shadow_tests/exact.frag";

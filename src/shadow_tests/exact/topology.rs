@@ -55,6 +55,20 @@ impl Topology {
             bounds: [least, most],
         }
     }
+
+    /// Whether it is the surface of solids, its faces outwards: who looks from outside sees no face from behind. (But for
+    /// a surface that cuts through itself and is turned inside out there.)
+    pub fn is_solid(&self) -> bool {
+        let volume = |component: &Vec<u32>| {
+            let faces = component.iter().map(|face| self.faces[*face as usize]);
+            let corners = faces.map(|face| face.map(|point| self.points[point as usize]));
+            let six_times = corners.map(|[a, b, c]| a.dot(b.cross(c)));
+            six_times.sum::<f64>()
+        };
+        !self.faces.is_empty()
+            && self.closed.iter().all(|closed| *closed)
+            && self.components.iter().all(|part| volume(part) > 0.0)
+    }
 }
 
 /// The points, and the point of each vertex.
@@ -167,6 +181,23 @@ mod tests {
         let mut inconsistent = shapes::sphere(8);
         inconsistent.faces[5].swap(0, 1);
         assert_eq!(closed(&inconsistent), [false]);
+    }
+
+    #[test]
+    fn a_solid_is_closed_and_not_inside_out() {
+        let is_solid = |mesh: &Mesh| Topology::new(mesh).is_solid();
+        for mesh in [shapes::cube(), shapes::sphere(8), shapes::torus(0.5, 8)] {
+            assert!(is_solid(&mesh));
+            let mut inside_out = mesh.clone();
+            inside_out.faces.iter_mut().for_each(|face| face.swap(0, 1));
+            assert!(!is_solid(&inside_out));
+            let mut both = mesh;
+            both.faces.extend(inside_out.faces);
+            assert!(!is_solid(&both));
+        }
+        for mesh in [shapes::plane(3), shapes::teapot(2), Mesh::default()] {
+            assert!(!is_solid(&mesh));
+        }
     }
 
     #[test]
