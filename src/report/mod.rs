@@ -2,6 +2,8 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | [`hard`] | the hard cases, each under every test |
+//! | [`scaling`] | how cost grows with triangles and texels |
 //! | `sweep.rs` | which rows there are: the combinations of settings |
 //! | `run.rs` | measuring them, in rounds |
 //! | `truths.rs` | the truth of each scene, cast once |
@@ -11,6 +13,8 @@
 //! | `thumbnail.rs` | the mistakes, small |
 //! | `plot.rs` | error against time |
 //! | `page.rs`, `files.rs` | the page; CSV and JSON |
+//! | `sheet.rs` | what every page begins with |
+//! | `bench.rs` | a lab that is started with a scene of the report's own |
 //! | `words.rs` | figures and rows as a reader sees them |
 //! | `machine.rs` | what it was measured on |
 //!
@@ -18,11 +22,15 @@
 //! by its settings and by [`Lab`](crate::labs::Lab) alone, so whatever else is a lab with settings can be reported on.
 
 mod advice;
+mod bench;
 mod files;
+pub mod hard;
 mod machine;
 mod page;
 mod plot;
 mod run;
+pub mod scaling;
+mod sheet;
 mod statistics;
 mod summary;
 mod sweep;
@@ -31,6 +39,9 @@ mod truths;
 mod words;
 
 use std::path::{Path, PathBuf};
+
+use maud::Markup;
+use serde_json::Value;
 
 pub use machine::Machine;
 pub use run::{Calls, Row, Subject, Times, measure, steps};
@@ -81,16 +92,26 @@ impl Report {
 
     /// Writes `report.csv`, `report.json` and `index.html`, each whole or not at all; returns the page's name.
     pub fn write(&self, folder: &Path) -> Result<PathBuf> {
-        std::fs::create_dir_all(folder).map_err(|cause| Error::writing(folder, cause))?;
-        let write = |name: &str, text: &str| {
-            let path = folder.join(name);
-            picture::write_whole(&path, |file| {
-                std::io::Write::write_all(file, text.as_bytes())
-            })?;
-            Ok(path)
-        };
-        write("report.csv", &files::csv(self))?;
-        write("report.json", &format!("{:#}\n", files::json(self)))?;
-        write("index.html", &page::page(self).into_string())
+        write(
+            folder,
+            &files::csv(self),
+            &files::json(self),
+            page::page(self),
+        )
     }
+}
+
+/// The three files of a report; returns the page's name.
+fn write(folder: &Path, csv: &str, json: &Value, page: Markup) -> Result<PathBuf> {
+    std::fs::create_dir_all(folder).map_err(|cause| Error::writing(folder, cause))?;
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        picture::write_whole(&path, |file| {
+            std::io::Write::write_all(file, text.as_bytes())
+        })?;
+        Ok(path)
+    };
+    write("report.csv", csv)?;
+    write("report.json", &format!("{json:#}\n"))?;
+    write("index.html", &page.into_string())
 }

@@ -15,7 +15,7 @@ const SIZE: (u32, u32) = (860, 500);
 
 /// Told apart by the colour-blind, too: Okabe and Ito (2008), without their yellow, which white paper swallows; then a
 /// grey, a brown and a dark purple.
-const COLORS: [RGBColor; 10] = [
+pub const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -229,7 +229,7 @@ fn labels(points: &[(i32, i32)], summaries: &[Summary]) -> Vec<(String, (i32, i3
 }
 
 /// Round numbers within a range, close enough for a reader to see the factors between them.
-fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+pub fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     let factor = range.end / range.start;
     let steps: &[f64] = if factor < 4.0 {
         &[
