@@ -212,6 +212,7 @@ fn comparison_json(compared: &Compared) -> Value {
         "title": compared.title,
         "set": compared.set,
         "advice": advice::sentence(compared, &summaries),
+        "faults": advice::faults(compared, &summaries),
         "rows": rows.collect::<Vec<_>>(),
     })
 }

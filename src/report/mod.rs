@@ -78,16 +78,22 @@ pub struct Compared {
 }
 
 impl Report {
-    /// The sentences that say which setting to choose, one for each comparison.
+    /// The sentences that say which setting to choose, one for each comparison; behind it, what is worse than it may be.
     pub fn advice(&self) -> Vec<String> {
         let labs = self.labs.iter();
         let advice = labs.flat_map(|lab| {
             lab.comparisons.iter().map(|compared| {
-                let advice = advice::sentence(compared, &Summary::of_rows(&compared.rows));
-                format!("{}, {}: {advice}", lab.handout.name, compared.title)
+                let summaries = Summary::of_rows(&compared.rows);
+                let faults = advice::faults(compared, &summaries);
+                let faults = faults.into_iter().map(|fault| format!("WORSE: {fault}"));
+                let lines = std::iter::once(advice::sentence(compared, &summaries)).chain(faults);
+                let name = format!("{}, {}", lab.handout.name, compared.title);
+                lines
+                    .map(|line| format!("{name}: {line}"))
+                    .collect::<Vec<_>>()
             })
         });
-        advice.collect()
+        advice.flatten().collect()
     }
 
     /// Writes `report.csv`, `report.json` and `index.html`, each whole or not at all; returns the page's name.

@@ -69,6 +69,7 @@ fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
     let rounds = compared.rows[0].times.len();
     html! {
         h3 { (compared.title) }
+        @for fault in advice::faults(compared, &summaries) { p.loud { "WORSE: " (fault) } }
         @if !compared.set.is_empty() { p { "All rows: " code { (compared.set.join(" ")) } } }
         p.advice {
             b { "Which setting do I choose for this scene, and what does it cost me? " }
@@ -77,7 +78,7 @@ fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
         div.plot { (PreEscaped(plot::svg(table, compared, &summaries))) }
         ul.legend {
             @for series in plot::series(table, compared, &summaries) {
-                li { b style=(swatch(series.color)) {} (series.name) }
+                li { b.round[series.round] style=(swatch(series.color)) {} (series.name) }
             }
         }
         p {

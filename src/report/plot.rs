@@ -28,8 +28,10 @@ pub const COLORS: [RGBColor; 10] = [
     RGBColor(90, 40, 140),
 ];
 
-/// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, and the axis says 0.
+/// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, in a band of its own.
 const FLOOR: f64 = 0.5;
+/// Where the band ends.
+const FLOOR_TOP: f64 = 0.72;
 
 /// Maps of several sizes are one method: their rows are joined, whatever else tells rows apart.
 const MAP_SIZE: &str = "map_size";
@@ -38,6 +40,8 @@ const MAP_SIZE: &str = "map_size";
 pub struct Series {
     pub name: String,
     pub color: [u8; 3],
+    /// Discs, and squares for those that find no colour of their own any more.
+    pub round: bool,
     /// From the cheapest on.
     rows: Vec<usize>,
 }
@@ -53,6 +57,7 @@ pub fn series(table: &[Setting], compared: &Compared, summaries: &[Summary]) -> 
                 series.push(Series {
                     name,
                     color: [red, green, blue],
+                    round: series.len() < COLORS.len(),
                     rows: vec![i],
                 });
             }
@@ -114,8 +119,15 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
     let most = heights().fold(10.0, f64::max);
     // The axis begins with a power of ten, or with the place of 0.
     let least = decades(least).last().copied().unwrap_or(FLOOR);
-    let (x, y) = (0.93 * low..1.08 * high, 0.8 * least..1.6 * most);
-    let y_ticks = [vec![FLOOR], decades(most)].concat();
+    // And it ends with one, where that is near.
+    let next = 10_f64.powf(most.log10().ceil());
+    let top = if next < 2.0 * most {
+        1.15 * next
+    } else {
+        1.6 * most
+    };
+    let (x, y) = (0.93 * low..1.08 * high, 0.8 * least..top);
+    let y_ticks = [vec![FLOOR], decades(top)].concat();
     let y_ticks = y_ticks
         .into_iter()
         .filter(|tick| y.contains(tick))
@@ -137,19 +149,27 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         .x_label_formatter(&|x| format!("{}", (1000.0 * x).round() / 1000.0))
         .y_label_formatter(&|y| {
             if *y < 1.0 {
-                "0".to_owned()
+                "none".to_owned()
             } else {
-                format!("{y}")
+                words::thousands(*y as u64)
             }
         })
         .x_desc(format!(
             "frame time while light or casters move, × the handout's ({} ms)",
             words::milliseconds(summaries[0].frame.ms)
         ))
-        .y_desc("wrong pixels")
+        .y_desc(format!(
+            "wrong pixels, of {} that face the light",
+            words::thousands(summaries[0].valid as u64)
+        ))
         .label_style(("sans-serif", 15))
         .axis_desc_style(("sans-serif", 17))
         .draw()?;
+
+    if y.start < FLOOR_TOP {
+        let band = [(x.start, y.start), (x.end, FLOOR_TOP)];
+        chart.draw_series([Rectangle::new(band, BLACK.mix(0.06).filled())])?;
+    }
 
     // The front: whatever lies to the right of and above it is beaten.
     let on_front = summaries.iter().filter(|row| row.on_front);
@@ -176,8 +196,15 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
             }
             // Hollow: wrong in the interior, too.
             let inside = if summary.interior == 0 { color } else { WHITE };
-            chart.draw_series([Circle::new(point, RADIUS, inside.filled())])?;
-            chart.draw_series([Circle::new(point, RADIUS, color.stroke_width(2))])?;
+            for style in [inside.filled(), color.stroke_width(2)] {
+                let corners = [(-RADIUS, -RADIUS), (RADIUS, RADIUS)];
+                let marker = EmptyElement::at(point);
+                if series.round {
+                    chart.draw_series([marker + Circle::new((0, 0), RADIUS, style)])?;
+                } else {
+                    chart.draw_series([marker + Rectangle::new(corners, style)])?;
+                }
+            }
         }
     }
 
@@ -187,8 +214,11 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         .collect();
     let style = ("sans-serif", 14).into_text_style(&root).color(&BLACK);
     let style = style.pos(Pos::new(HPos::Center, VPos::Center));
-    for (label, at) in labels(&points, summaries) {
-        root.draw(&Text::new(label, at, style.clone()))?;
+    let (across, down) = chart.plotting_area().get_pixel_range();
+    let corner = (across.start, down.end);
+    let names: Vec<String> = compared.rows.iter().map(words::name).collect();
+    for label in labels(&points, summaries, &names, corner) {
+        root.draw(&Text::new(label.text, label.at, style.clone()))?;
     }
     root.present()?;
     Ok(())
@@ -196,34 +226,62 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
 
 /// Of a point, in pixels.
 const RADIUS: i32 = 5;
-/// How far a number's middle is from its point, and half its width and height.
-const BESIDE: (i32, i32) = (13, 11);
-const HALF_LABEL: (i32, i32) = (8, 6);
+/// Of a label: the width of a letter, half the height of a line, and how far it is from its point.
+const LETTER: i32 = 7;
+const HALF_LINE: i32 = 6;
+const BESIDE: (i32, i32) = (9, 11);
 
-/// The rows' numbers and where to write them: beside each point, where neither point nor number is in the way yet. The
-/// front's come first; a number that finds no room is left out.
-fn labels(points: &[(i32, i32)], summaries: &[Summary]) -> Vec<(String, (i32, i32))> {
+/// A text, and where its middle is.
+struct Label {
+    text: String,
+    at: (i32, i32),
+}
+
+impl Label {
+    fn half_width(&self) -> i32 {
+        LETTER * self.text.chars().count() as i32 / 2 + 1
+    }
+}
+
+/// The rows' numbers and where to write them: beside each point, where neither point nor label is in the way yet. The
+/// front's come first and have their names, too: to the left of and below the front there is nothing else. A label that
+/// finds no room within the axes, whose corner is given, is left out.
+fn labels(points: &[(i32, i32)], summaries: &[Summary], names: &[String], left: i32) -> Vec<Label> {
     let mut rows: Vec<usize> = (0..points.len()).collect();
     rows.sort_by_key(|i| !summaries[*i].on_front);
-    let mut labels: Vec<(String, (i32, i32))> = Vec::new();
+    let mut labels: Vec<Label> = Vec::new();
     for i in rows {
-        let (x, y) = points[i];
-        let around = [(1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (0, 1)];
-        let mut around = around
-            .map(|(right, down)| (x + BESIDE.0 * right, y + BESIDE.1 * down))
-            .into_iter();
-        let is_free = |at: &(i32, i32)| {
-            let apart = |other: &(i32, i32), by: (i32, i32)| {
-                (at.0 - other.0).abs() >= by.0 || (at.1 - other.1).abs() >= by.1
+        let number = (i + 1).to_string();
+        let named = format!("{number} {}", names[i]);
+        let beside = |text: &String, right: i32, down: i32| {
+            let mut label = Label {
+                text: text.clone(),
+                at: points[i],
             };
-            let from_point = (HALF_LABEL.0 + RADIUS, HALF_LABEL.1 + RADIUS);
-            let from_label = (2 * HALF_LABEL.0, 2 * HALF_LABEL.1);
-            points.iter().all(|point| apart(point, from_point))
-                && labels.iter().all(|(_, label)| apart(label, from_label))
+            label.at.0 += right * (BESIDE.0 + label.half_width());
+            label.at.1 += down * BESIDE.1;
+            label
         };
-        if let Some(free) = around.find(is_free) {
-            labels.push(((i + 1).to_string(), free));
-        }
+        let with_name =
+            [(-1, 1), (-1, -1), (1, -1)].map(|(right, down)| beside(&named, right, down));
+        let around = [(1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (0, 1)];
+        let alone = around.map(|(right, down)| beside(&number, right, down));
+        let named_first = with_name.into_iter().filter(|_| summaries[i].on_front);
+        let is_free = |label: &Label| {
+            let width = label.half_width();
+            let apart = |other: (i32, i32), by: (i32, i32)| {
+                (label.at.0 - other.0).abs() >= by.0 || (label.at.1 - other.1).abs() >= by.1
+            };
+            let from_point = (width + RADIUS, HALF_LINE + RADIUS);
+            let from_label = |other: &Label| (width + other.half_width(), 2 * HALF_LINE);
+            label.at.0 - width >= left
+                && label.at.1 + HALF_LINE <= bottom
+                && points.iter().all(|point| apart(*point, from_point))
+                && labels
+                    .iter()
+                    .all(|other| apart(other.at, from_label(other)))
+        };
+        labels.extend(named_first.chain(alone).find(is_free));
     }
     labels
 }

@@ -30,12 +30,10 @@ impl ReportCommand {
         let report = measure(&self.device, size, &sizes, rounds, &progress, &stop)?;
         drop(progress);
         let page = report.write(&self.output)?;
-        let interrupted = (report.rounds < report.asked).then(|| {
+        let interrupted = report.interrupted.then(|| {
             format!(
-                "interrupted: {} has {} of {} rounds",
-                page.display(),
-                report.rounds,
-                report.asked
+                "interrupted: {} has the rounds that were finished of {rounds}",
+                page.display()
             )
         });
         finish(&report.summary(), &page, interrupted)

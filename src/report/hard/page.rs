@@ -12,13 +12,13 @@ use crate::report::{page, thumbnail, words};
 
 const STYLE: &str = "
     .matrix td { white-space: normal; text-align: left; vertical-align: top; padding: 0.3rem 0.5rem; }
-    .matrix td.case { width: 17rem; }
-    .matrix td.cell { width: 14rem; }
-    .matrix img { width: 10rem; display: block; }
+    .matrix td.case { width: 15rem; }
+    .matrix td.cell { width: 18rem; }
+    .matrix img { width: 8rem; float: left; margin-right: 0.6rem; }
     .exact b { color: #00664b; }
     .holds b { color: #0072b2; }
-    .fails { background: #fbe3d9; }
-    .fails b { color: #b00020; }
+    .fails, .unresolved { background: #fbe3d9; }
+    .fails b, .unresolved b { color: #b00020; }
     tr.theme th { text-align: left; padding-top: 1rem; font-size: 1rem; }
     tr.broken td { background: #b00020; color: #fff; }
     tr.control td { color: #777; }
@@ -35,7 +35,9 @@ pub fn page(report: &HardReport) -> Markup {
         @for line in broken(report) { p.loud { "NOT AS EXPECTED: " (line) } }
         p.advice {
             b { "Which test holds where? " }
-            @for line in summary(report).iter().filter(|line| !line.starts_with("NOT")) { (line) ". " }
+            @for line in summary(report).iter().filter(|line| !line.starts_with("NOT")) {
+                br; (words::capitalised(line)) "."
+            }
         }
         p {
             code { "shadowlab report hard" } " at " (width) "×" (height) ", " (report.rounds) " rounds. "
@@ -67,7 +69,9 @@ fn reading() -> Markup {
                 b { "exact" } ": no pixel is wrong, but where the truth itself is ambiguous: its label flips under a shift of \
                  1/256 pixel. " b { "holds" } ": wrong pixels lie within a pixel of a change in the truth (edge1) or within a \
                  texel of it on the map (edgeT), where the resolution ends; none in the interior, and none that is lit is \
-                 darker than 95 % there. " b { "fails" } ": some are: a fault of the method. "
+                 darker than 95 % there. " b { "unresolved" } ": the same, but more than 1 % of the pixels that face the light are \
+                 wrong within a texel: the map is too coarse for what casts. " b { "fails" } ": some are wrong in the \
+                 interior: a fault of the method. "
                 b { "Gap" } ": the strip of light between a caster and its shadow. " b { "Grey" } ": lit in truth, below 95 % \
                  here, in the interior."
             }
@@ -146,13 +150,13 @@ fn cell(case: &CaseReport, shadow_test: &str, format: &str) -> Markup {
     let edge = [shadow, light].map(|wrong| wrong.edge1 + wrong.edge_t);
     let summary: &Summary = &case.summaries()[index];
     html! {
-        td.cell class=(verdict) {
+        td class={ "cell " (verdict) } {
             img src=(thumbnail::data_url(&row.thumbnails[0])) alt="the mistakes";
-            b { (verdict) } " "
-            @if shadow.interior > 0 { (shadow.interior) " falsely dark, " }
-            @if light.interior > 0 { (light.interior) " falsely lit, " }
-            @if figures.grey > shadow.interior { (figures.grey) " grey, " }
-            @if edge != [0, 0] { (edge[0] + edge[1]) " at edges, " }
+            b { (verdict) } br;
+            @if shadow.interior > 0 { (shadow.interior) " falsely dark" br; }
+            @if light.interior > 0 { (light.interior) " falsely lit" br; }
+            @if figures.grey > shadow.interior { (figures.grey) " grey" br; }
+            @if edge != [0, 0] { (edge[0] + edge[1]) " wrong at edges" br; }
             (page::ratio(&summary.frame)) " ×"
         }
     }

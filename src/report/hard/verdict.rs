@@ -10,20 +10,30 @@ use crate::report::words;
 pub enum Verdict {
     /// Wrong or grey in the interior.
     Fails,
+    /// Wrong along the shadows' edges at most, but so often within a texel of them that the shadow is another one.
+    Unresolved,
     /// Wrong along the shadows' edges at most.
     Holds,
     /// No pixel is wrong but where the truth itself is ambiguous.
     Exact,
 }
 
+/// More than so many of the pixels that face the light: wires of half a texel lose half of their shadow, and no pixel of
+/// it is in the interior.
+const RESOLVED: f64 = 0.01;
+
 impl Verdict {
     pub fn of(figures: &Figures) -> Self {
+        let edge_t = figures.false_shadow.edge_t + figures.false_light.edge_t;
+        let valid = figures.lit + figures.shadowed;
         if Expected::Exact.is_met(figures) && figures.grey == 0 {
             Self::Exact
-        } else if Expected::Holds(0, 0).is_met(figures) {
-            Self::Holds
-        } else {
+        } else if !Expected::Holds(0, 0).is_met(figures) {
             Self::Fails
+        } else if edge_t as f64 > RESOLVED * valid as f64 {
+            Self::Unresolved
+        } else {
+            Self::Holds
         }
     }
 
@@ -31,6 +41,7 @@ impl Verdict {
     pub fn word(self) -> &'static str {
         match self {
             Self::Fails => "fails",
+            Self::Unresolved => "unresolved",
             Self::Holds => "holds",
             Self::Exact => "exact",
         }
@@ -56,10 +67,10 @@ pub fn is_control(expected: Expected) -> bool {
 /// What must come of a test, for a reader.
 pub fn promise(expected: Expected) -> String {
     match expected {
-        Expected::FalseShadow(least) => format!("control: {least} false shadow or more"),
-        Expected::FalseLight(least) => format!("control: {least} false light or more"),
-        Expected::Grey(least) => format!("control: {least} grey or more"),
-        Expected::Unresolved(least) => format!("control: {least} unresolved or more"),
+        Expected::FalseShadow(least) => format!("control: false shadow ≥ {least}"),
+        Expected::FalseLight(least) => format!("control: false light ≥ {least}"),
+        Expected::Grey(least) => format!("control: grey ≥ {least}"),
+        Expected::Unresolved(least) => format!("control: unresolved ≥ {least}"),
         Expected::Holds(0, 0) => "must hold".to_owned(),
         Expected::Holds(grey, light) => format!("must hold but for {grey} grey, {light} lit"),
         Expected::Exact => "must be exact".to_owned(),
@@ -253,6 +264,11 @@ mod tests {
         assert_eq!(Verdict::of(&interior(0)), Verdict::Exact);
         assert_eq!(Verdict::of(&figures(edge, 0)), Verdict::Holds);
         assert_eq!(Verdict::of(&figures(edge, 1)), Verdict::Fails);
+        let many = Wrong {
+            edge_t: 21,
+            ..Wrong::default()
+        };
+        assert_eq!(Verdict::of(&figures(many, 0)), Verdict::Unresolved);
         assert_eq!(Verdict::of(&interior(1)), Verdict::Fails);
     }
 

@@ -28,9 +28,9 @@ const COLUMNS: &[&str] = &[
 ];
 
 pub fn csv(report: &ScalingReport) -> String {
-    let axes = [&report.triangles, &report.texels];
-    let series = axes
-        .into_iter()
+    let series = report
+        .axes
+        .iter()
         .flat_map(|axis| axis.series.iter().map(move |series| (axis, series)));
     let records = series.flat_map(|(axis, series)| {
         let points = series.points.iter();
@@ -76,12 +76,12 @@ pub fn json(report: &ScalingReport) -> Value {
     json!({
         "shadowlab": env!("CARGO_PKG_VERSION"),
         "machine": machine_json(&report.machine),
-        "interrupted": report.rounds < report.asked,
+        "interrupted": report.interrupted,
         "width": report.size[0],
         "height": report.size[1],
         "rounds": report.rounds,
         "summary": report.summary(),
-        "axes": [axis_json(&report.triangles), axis_json(&report.texels)],
+        "axes": report.axes.iter().map(axis_json).collect::<Vec<_>>(),
     })
 }
 
@@ -121,6 +121,7 @@ fn axis_json(axis: &Axis) -> Value {
     });
     json!({
         "unit": axis.unit,
+        "rounds": axis.rounds,
         "series": series.collect::<Vec<_>>(),
         "slopes": slopes.collect::<Vec<_>>(),
     })

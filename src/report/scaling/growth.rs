@@ -185,6 +185,7 @@ mod tests {
         };
         Axis {
             unit: "triangles",
+            rounds: 6,
             series: vec![Series {
                 shadow_test: "handout",
                 points: [1000, 3000, 10_000].map(point).into(),

@@ -24,17 +24,19 @@ use crate::Result;
 pub struct ScalingReport {
     pub machine: Machine,
     pub size: [u32; 2],
-    /// How many rounds were finished, and how many were asked for.
+    /// How many rounds were asked for.
     pub rounds: usize,
-    pub asked: usize,
-    pub triangles: Axis,
-    pub texels: Axis,
+    /// Triangles and texels, as far as Ctrl-C let them be measured.
+    pub axes: Vec<Axis>,
+    pub interrupted: bool,
 }
 
 /// What is made larger and larger, everything else being the same.
 pub struct Axis {
     /// In the plural.
     pub unit: &'static str,
+    /// How many were finished.
+    pub rounds: usize,
     /// One for each shadow test, the handout's first.
     pub series: Vec<Series>,
 }
@@ -54,7 +56,7 @@ pub struct Point {
 impl ScalingReport {
     /// The sentences that say whether anything grows faster than triangles and texels do.
     pub fn summary(&self) -> Vec<String> {
-        [&self.triangles, &self.texels].map(growth::sentence).into()
+        self.axes.iter().map(growth::sentence).collect()
     }
 
     /// Writes `report.csv`, `report.json` and `index.html`, each whole or not at all; returns the page's name.

@@ -17,8 +17,12 @@ const STYLE: &str = "
 ";
 
 pub fn page(report: &ScalingReport) -> Markup {
-    let interrupted = (report.rounds < report.asked)
-        .then(|| format!("INTERRUPTED: {} of {} rounds.", report.rounds, report.asked));
+    let interrupted = report.interrupted.then(|| {
+        let finished = report.axes.iter();
+        let finished = finished.map(|axis| format!("{} with the {}", axis.rounds, axis.unit));
+        let finished = finished.collect::<Vec<_>>().join(", ");
+        format!("INTERRUPTED: of {} rounds, {finished}.", report.rounds)
+    });
     let body = html! {
         style { (PreEscaped(STYLE)) }
         p.advice {
@@ -26,20 +30,19 @@ pub fn page(report: &ScalingReport) -> Markup {
             @for sentence in report.summary() { (words::capitalised(&sentence)) ". " }
         }
         p {
-            code { "shadowlab report scaling" } " at " (report.size[0]) "×" (report.size[1]) ", " (report.rounds)
-            " rounds, drawn by " (LAB) ": a bumpy sphere over a floor under a spot light. Every round visits every size, in \
+            code { "shadowlab report scaling" } " at " (report.size[0]) "×" (report.size[1]) ", rounds: " (report.rounds)
+            ", drawn by " (LAB) ": a bumpy sphere over a floor under a spot light. Every round visits every size, in \
              changing order. Times are wall time from an idle driver to an idle driver: medians, the bars their 95 % \
              intervals by order statistics. Thin lines have slope 1."
         }
-        (of_axis(&report.triangles, "With the triangles of the scene"))
-        (of_axis(&report.texels, "With the texels of the map"))
+        @for axis in &report.axes { (of_axis(axis)) }
     };
     sheet("How cost grows", &report.machine, interrupted, body)
 }
 
-fn of_axis(axis: &Axis, title: &str) -> Markup {
+fn of_axis(axis: &Axis) -> Markup {
     html! {
-        h2 { (title) }
+        h2 { "With the " (axis.unit) }
         ul.legend {
             @for (i, series) in axis.series.iter().enumerate() {
                 li {
@@ -92,8 +95,8 @@ fn figures(axis: &Axis) -> Markup {
             thead {
                 tr {
                     th.name { "test" } th { (axis.unit) } th { "× the handout's (95 %)" }
-                    th { "moving, ms (p95)" } th { "at rest, ms (p95)" } th { "shadow pass or light buffer, ms (p95)" }
-                    th { "MiB" } th { "of that maps" } th { "wrong pixels" } th { "of these in the interior" }
+                    th { "moving, ms (p95)" } th { "at rest, ms (p95)" } th { "pass or buffer, ms (p95)" }
+                    th { "MiB (maps)" } th { "wrong pixels (interior)" }
                 }
             }
             tbody {
@@ -118,10 +121,8 @@ fn line(axis: &Axis, series: &Series, point: &Point) -> Markup {
         td { (milliseconds(row, |times| times.frame)) }
         td { (milliseconds(row, |times| times.rest)) }
         td { (milliseconds(row, |times| times.shadow_pass)) }
-        td { (words::mebibytes(row.bytes.total())) }
-        td { (words::mebibytes(row.bytes.drawn_into)) }
-        td { (shadow.total() + light.total()) }
-        td { (shadow.interior + light.interior) }
+        td { (words::mebibytes(row.bytes.total())) " (" (words::mebibytes(row.bytes.drawn_into)) ")" }
+        td { (shadow.total() + light.total()) " (" (shadow.interior + light.interior) ")" }
     }
 }
 

@@ -7,6 +7,7 @@ use plotters::prelude::*;
 
 use super::Axis;
 use super::growth::Cost;
+use super::run::TEXELS;
 use crate::report::plot::{COLORS, ticks};
 
 /// In the page's pixels: two stand side by side.
@@ -115,21 +116,21 @@ fn guides(y: &Range<f64>, least: f64, most: f64, high: f64) -> Vec<Vec<(f64, f64
 
 fn x_ticks(axis: &Axis, sizes: &[f64]) -> Vec<f64> {
     match axis.unit {
-        "texels" => sizes.to_vec(),
+        TEXELS => sizes.to_vec(),
         _ => (3..8).map(|power| 10_f64.powi(power)).collect(),
     }
 }
 
 fn x_description(unit: &str) -> &'static str {
     match unit {
-        "texels" => "texels of the map",
+        TEXELS => "texels of the map",
         _ => "triangles",
     }
 }
 
 fn x_label(unit: &str, x: f64) -> String {
     match unit {
-        "texels" => format!("{}²", x.sqrt().round()),
+        TEXELS => format!("{}²", x.sqrt().round()),
         _ => format!(
             "10{}",
             ["³", "⁴", "⁵", "⁶", "⁷"][x.log10().round() as usize - 3]

@@ -26,6 +26,10 @@ const MAP_SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
 /// Of the scene that the maps are drawn from.
 const TRIANGLES_IN_MAPS: u32 = 10_000;
 
+/// What grows along an axis.
+pub const TRIANGLES: &str = "triangles";
+pub const TEXELS: &str = "texels";
+
 /// The sizes that are measured.
 pub struct Sizes {
     triangles: Vec<u32>,
@@ -65,7 +69,6 @@ pub fn steps(sizes: &Sizes, rounds: usize) -> Result<u64> {
 struct Place {
     lab: usize,
     running: Running,
-    is_map: bool,
     shadow_test: &'static str,
     count: u64,
 }
@@ -74,11 +77,13 @@ struct Bench<'a> {
     handout: &'static Handout,
     context: &'a Headless,
     size: [u32; 2],
+    unit: &'static str,
     labs: Vec<Box<dyn Lab>>,
     places: Vec<Place>,
 }
 
-/// Measures as many rounds as are finished before `stop` is raised.
+/// Measures as many rounds as are finished before `stop` is raised. The axes follow each other, for memory's sake: that of
+/// a million triangles is given back before the largest maps are drawn.
 pub fn measure(
     device: &Choice,
     size: [u32; 2],
@@ -87,61 +92,46 @@ pub fn measure(
     progress: &Progress,
     stop: &AtomicBool,
 ) -> Result<ScalingReport> {
-    let handout = labs::find(LAB)?;
-    let context = Headless::open(device, size, true)?;
-    let mut bench = Bench {
-        handout,
-        context: &context,
-        size,
-        labs: Vec::new(),
-        places: Vec::new(),
-    };
-    let stopped = || stop.load(Ordering::Relaxed);
-    let scenes = sizes.triangles.iter().map(|triangles| (false, *triangles));
-    for (is_map, triangles) in scenes.chain([(true, TRIANGLES_IN_MAPS)]) {
-        if stopped() {
-            break;
-        }
-        bench.add_scene(is_map, &hard::bumpy_ball(triangles), progress)?;
-    }
-
-    let mut finished = 0;
-    while finished < rounds && !stopped() {
-        let mut times = vec![None; bench.places.len()];
-        for i in run::order(finished, times.len()) {
-            if stopped() {
+    let mut axes = Vec::new();
+    let mut machine = None;
+    for (unit, scenes) in [
+        (TRIANGLES, &sizes.triangles[..]),
+        (TEXELS, &[TRIANGLES_IN_MAPS]),
+    ] {
+        let context = Headless::open(device, size, true)?;
+        machine = Some(Machine::new(&context));
+        let mut bench = Bench {
+            handout: labs::find(LAB)?,
+            context: &context,
+            size,
+            unit,
+            labs: Vec::new(),
+            places: Vec::new(),
+        };
+        for triangles in scenes {
+            if stop.load(Ordering::Relaxed) {
                 break;
             }
-            times[i] = Some(bench.visit(i)?);
-            progress.add(1);
+            bench.add_scene(&hard::bumpy_ball(*triangles), progress)?;
         }
-        // A round that was not finished is no round.
-        let Some(times) = times.into_iter().collect::<Option<Vec<_>>>() else {
-            break;
-        };
-        for (place, times) in bench.places.iter_mut().zip(times) {
-            place.running.row.times.push(times);
-        }
-        finished += 1;
+        axes.extend(bench.measure(rounds, progress, stop)?);
     }
-    if finished == 0 {
-        let message = "interrupted before the first round: nothing is written";
-        return Err(Error::Interrupted(message.to_owned()));
-    }
-    let (maps, scenes): (Vec<_>, Vec<_>) = bench.places.into_iter().partition(|place| place.is_map);
+    let machine = machine.filter(|_| !axes.is_empty()).ok_or_else(|| {
+        Error::Interrupted("interrupted before the first round: nothing is written".to_owned())
+    })?;
     Ok(ScalingReport {
-        machine: Machine::new(&context),
+        machine,
         size,
-        rounds: finished,
-        asked: rounds,
-        triangles: axis("triangles", handout, scenes),
-        texels: axis("texels", handout, maps),
+        rounds,
+        interrupted: axes.len() < 2 || axes.iter().any(|axis| axis.rounds < rounds),
+        axes,
     })
 }
 
 impl Bench<'_> {
     /// A lab for each shadow test, and the rows that it is measured in.
-    fn add_scene(&mut self, is_map: bool, scene: &Scene, progress: &Progress) -> Result<()> {
+    fn add_scene(&mut self, scene: &Scene, progress: &Progress) -> Result<()> {
+        let is_map = self.unit == TEXELS;
         let mut truths = Truths::new(self.size);
         let objects = scene.objects.iter();
         let triangles: usize = objects.map(|object| object.mesh.faces.len()).sum();
@@ -179,7 +169,6 @@ impl Bench<'_> {
                 self.places.push(Place {
                     lab: self.labs.len(),
                     running,
-                    is_map,
                     shadow_test,
                     count: if is_map { texels } else { triangles as u64 },
                 });
@@ -188,6 +177,62 @@ impl Bench<'_> {
             self.labs.push(lab);
         }
         Ok(())
+    }
+
+    /// None where not a single round was finished.
+    fn measure(
+        mut self,
+        rounds: usize,
+        progress: &Progress,
+        stop: &AtomicBool,
+    ) -> Result<Option<Axis>> {
+        let stopped = || stop.load(Ordering::Relaxed);
+        let mut finished = 0;
+        while finished < rounds && !stopped() {
+            let mut times = vec![None; self.places.len()];
+            for i in run::order(finished, times.len()) {
+                if stopped() {
+                    break;
+                }
+                times[i] = Some(self.visit(i)?);
+                progress.add(1);
+            }
+            // A round that was not finished is no round.
+            let Some(times) = times.into_iter().collect::<Option<Vec<_>>>() else {
+                break;
+            };
+            for (place, times) in self.places.iter_mut().zip(times) {
+                place.running.row.times.push(times);
+            }
+            finished += 1;
+        }
+        Ok((finished > 0).then(|| Axis {
+            unit: self.unit,
+            rounds: finished,
+            series: self.series(),
+        }))
+    }
+
+    /// The figures by shadow test. A driver may allow no map as large as was asked for: then it has drawn the same twice.
+    fn series(self) -> Vec<Series> {
+        let empty = |shadow_test: &&'static str| Series {
+            shadow_test,
+            points: Vec::new(),
+        };
+        let mut series: Vec<Series> = shadow_tests(self.handout).iter().map(empty).collect();
+        for place in self.places {
+            let own = series
+                .iter_mut()
+                .find(|series| series.shadow_test == place.shadow_test);
+            let points = &mut own.expect("every test has a series").points;
+            if points.iter().all(|point| point.count != place.count) {
+                points.push(Point {
+                    count: place.count,
+                    row: place.running.row,
+                });
+            }
+        }
+        series
     }
 
     fn visit(&mut self, i: usize) -> Result<run::Times> {
@@ -200,28 +245,6 @@ impl Bench<'_> {
         };
         trace::unrecorded(|| run::visit(&mut subject, running))
     }
-}
-
-/// The figures by shadow test. A driver may allow no map as large as was asked for: then it has drawn the same twice.
-fn axis(unit: &'static str, handout: &'static Handout, places: Vec<Place>) -> Axis {
-    let empty = |shadow_test: &&'static str| Series {
-        shadow_test,
-        points: Vec::new(),
-    };
-    let mut series: Vec<Series> = shadow_tests(handout).iter().map(empty).collect();
-    for place in places {
-        let own = series
-            .iter_mut()
-            .find(|series| series.shadow_test == place.shadow_test);
-        let points = &mut own.expect("every test has a series").points;
-        if points.iter().all(|point| point.count != place.count) {
-            points.push(Point {
-                count: place.count,
-                row: place.running.row,
-            });
-        }
-    }
-    Axis { unit, series }
 }
 
 #[cfg(test)]
