@@ -33,6 +33,9 @@ const FLOOR: f64 = 0.5;
 /// Where the band ends.
 const FLOOR_TOP: f64 = 0.72;
 
+/// How far beyond the points their intervals can stretch the axis of cost.
+const BEYOND: f64 = 1.5;
+
 /// Maps of several sizes are one method: their rows are joined, whatever else tells rows apart.
 const MAP_SIZE: &str = "map_size";
 
@@ -108,12 +111,13 @@ fn place(summary: &Summary) -> (f64, f64) {
 }
 
 fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut String) -> Drawn {
-    let ends = summaries
-        .iter()
-        .flat_map(|row| row.frame.ratio_95.unwrap_or([row.frame.ratio; 2]));
-    let (low, high) = ends.fold((1.0_f64, 1.0_f64), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let extent = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));
+    let costs = summaries.iter().map(|row| row.frame.ratio);
+    let (cheapest, dearest) = costs.fold((1.0, 1.0), extent);
+    let ends = summaries.iter().flat_map(|row| row.frame.ratio_95);
+    let (low, high) = ends.flatten().fold((cheapest, dearest), extent);
+    // An interval that goes far beyond all points must not press them together: the axis cuts it off.
+    let (low, high) = (low.max(cheapest / BEYOND), high.min(dearest * BEYOND));
     let heights = || summaries.iter().map(|row| place(row).1);
     let least = heights().fold(f64::INFINITY, f64::min);
     let most = heights().fold(10.0, f64::max);
@@ -191,6 +195,7 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         for summary in series.rows.iter().map(|i| &summaries[*i]) {
             let point = place(summary);
             if let Some([from, to]) = summary.frame.ratio_95 {
+                let (from, to) = (from.max(x.start), to.min(x.end));
                 let interval = vec![(from, point.1), (to, point.1)];
                 chart.draw_series([PathElement::new(interval, color.mix(0.5))])?;
             }
@@ -246,7 +251,12 @@ impl Label {
 /// The rows' numbers and where to write them: beside each point, where neither point nor label is in the way yet. The
 /// front's come first and have their names, too: to the left of and below the front there is nothing else. A label that
 /// finds no room within the axes, whose corner is given, is left out.
-fn labels(points: &[(i32, i32)], summaries: &[Summary], names: &[String], left: i32) -> Vec<Label> {
+fn labels(
+    points: &[(i32, i32)],
+    summaries: &[Summary],
+    names: &[String],
+    (left, bottom): (i32, i32),
+) -> Vec<Label> {
     let mut rows: Vec<usize> = (0..points.len()).collect();
     rows.sort_by_key(|i| !summaries[*i].on_front);
     let mut labels: Vec<Label> = Vec::new();
