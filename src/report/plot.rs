@@ -283,7 +283,7 @@ fn labels(
                 (label.at.0 - other.0).abs() >= by.0 || (label.at.1 - other.1).abs() >= by.1
             };
             let from_point = (width + RADIUS, HALF_LINE + RADIUS);
-            let from_label = |other: &Label| (width + other.half_width(), 2 * HALF_LINE);
+            let from_label = |other: &Label| (width + other.half_width() + LETTER, 2 * HALF_LINE);
             label.at.0 - width >= left
                 && label.at.1 + HALF_LINE <= bottom
                 && points.iter().all(|point| apart(*point, from_point))

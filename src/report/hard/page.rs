@@ -36,7 +36,7 @@ pub fn page(report: &HardReport) -> Markup {
         p.advice {
             b { "Which test holds where? " }
             @for line in summary(report).iter().filter(|line| !line.starts_with("NOT")) {
-                br; (words::capitalised(line)) "."
+                br; (line)
             }
         }
         p {
@@ -46,8 +46,8 @@ pub fn page(report: &HardReport) -> Markup {
         (reading())
         h2 { "Every case under every shadow test" }
         p {
-            "False shadow red, false light blue, shadow dark grey, light bright grey. × is the frame while light or casters \
-             move, to the handout's of the same round, with its 95 % interval."
+            "False shadow red, false light blue, shadow dark grey, light bright grey. ms: the handout's frame while light or \
+             casters move; ×: that of another test to it, of the same round, with its 95 % interval."
         }
         div.wide { (matrix(report)) }
         @if !report.anchor.is_empty() { (closed_form(&report.anchor)) }
@@ -157,7 +157,8 @@ fn cell(case: &CaseReport, shadow_test: &str, format: &str) -> Markup {
             @if light.interior > 0 { (light.interior) " falsely lit" br; }
             @if figures.grey > shadow.interior { (figures.grey) " grey" br; }
             @if edge != [0, 0] { (edge[0] + edge[1]) " wrong at edges" br; }
-            (page::ratio(&summary.frame)) " ×"
+            @if index == 0 { (words::milliseconds(summary.frame.ms)) " ms" }
+            @else { (page::ratio(&summary.frame)) " ×" }
         }
     }
 }
