@@ -11,7 +11,7 @@
 //! | `advice.rs` | the sentence that says which setting to choose, and what it costs |
 //! | `statistics.rs` | medians and intervals of a sample |
 //! | `thumbnail.rs` | the mistakes, small |
-//! | `plot.rs` | error against time |
+//! | `plot.rs`, `labels.rs` | error against time; what is written beside its points |
 //! | `page.rs`, `files.rs` | the page; CSV and JSON |
 //! | `sheet.rs` | what every page begins with |
 //! | `bench.rs` | a lab that is started with a scene of the report's own |
@@ -25,6 +25,7 @@ mod advice;
 mod bench;
 mod files;
 pub mod hard;
+mod labels;
 mod machine;
 mod page;
 mod plot;
