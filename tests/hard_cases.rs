@@ -227,12 +227,12 @@ fn a_second_plane_scales_with_its_plane() {
 fn acne_is_as_frequent_as_the_closed_form_says() {
     println!("angle   map   bias in texels   measured   closed form");
     let mut worst: f64 = 0.0;
-    for degrees in [20.0, 45.0, 60.0, 75.0, 85.0] {
+    for degrees in anchor::ANGLES {
         let scene = anchor::tilted(degrees);
-        let mut bench = Bench::with_scene("csci3260", scene, hard::SIZE, &[]);
-        for map_size in [512, 1024, 2048] {
+        let mut bench = Bench::with_scene(anchor::LAB, scene, hard::SIZE, &[]);
+        for map_size in anchor::MAP_SIZES {
             let texel = anchor::texel(map_size);
-            for share in [0.0, 0.25, 0.5, 0.75, 1.25] {
+            for share in anchor::BIASES {
                 let bias = share * anchor::deepest(texel, degrees);
                 let map_size = format!("map_size={map_size}");
                 bench.set(&[&map_size, &format!("bias={}", anchor::in_depth(bias))]);

@@ -57,6 +57,7 @@ const ROOMS: &[Room] = &[
         name: "report",
         imports: &[
             "headless",
+            "hard",
             "measure",
             "ground_truth",
             "labs",

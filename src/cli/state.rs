@@ -86,6 +86,22 @@ impl Drawing {
 }
 
 impl Changes {
+    pub fn has_scene(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    /// Whether one of them brings a lab to another state of the same scene.
+    pub fn are_of_one_state(&self) -> bool {
+        self.glsl.is_some() || !self.set.is_empty() || !self.keys.is_empty() || self.time > 0.0
+    }
+
+    /// The hard case that stands in place of a scene's file.
+    pub fn hard_case(&self) -> Result<Option<&'static Case>> {
+        let name = self.scene.as_deref().and_then(Path::to_str);
+        let name = name.and_then(|name| name.strip_prefix(HARD));
+        name.map(hard::find).transpose()
+    }
+
     /// Whether one of them has a meaning for one lab only.
     pub fn are_of_one_lab(&self) -> bool {
         self.scene.is_some() || self.glsl.is_some() || !self.set.is_empty() || !self.keys.is_empty()
@@ -206,17 +222,14 @@ impl State {
         Ok(())
     }
 
-    /// The hard case that stands in place of a scene's file.
+    /// The hard case that stands in place of a scene's file, if the lab is the one that draws it.
     fn hard_case(&self) -> Result<Option<&'static Case>> {
-        let name = self.changes.scene.as_deref().and_then(Path::to_str);
-        let name = name.and_then(|name| name.strip_prefix(HARD));
-        let case = name.map(hard::find).transpose()?;
-        match case {
+        match self.changes.hard_case()? {
             Some(case) if case.lab != self.lab => Err(Error::usage(format!(
                 "the hard case {} is drawn by {}, found {}",
                 case.name, case.lab, self.lab
             ))),
-            _ => Ok(case),
+            case => Ok(case),
         }
     }
 

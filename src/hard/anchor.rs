@@ -10,6 +10,14 @@ use glam::{DVec3, dvec3};
 use super::build::{SUN_REACH, camera, floor, scene, sun};
 use crate::scene::Scene;
 
+/// The lab that has one constant bias and no filter.
+pub const LAB: &str = "csci3260";
+
+/// What is measured: angles from the plane's normal in degrees, sizes of the map, biases in units of [`deepest`].
+pub const ANGLES: [f64; 5] = [20.0, 45.0, 60.0, 75.0, 85.0];
+pub const MAP_SIZES: [u32; 3] = [512, 1024, 2048];
+pub const BIASES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.25];
+
 /// Half the side of the map.
 const HALF: f64 = 10.0;
 

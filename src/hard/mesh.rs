@@ -110,7 +110,15 @@ fn with_bumps(mesh: &mut Mesh) {
 }
 
 fn bumpy() -> Scene {
-    let ball = object("ball", shapes::sphere(225), at(1.2 * DVec3::Y), ORANGE);
+    bumpy_ball(201_600)
+}
+
+/// A bumpy sphere of about so many triangles over a floor: with their number, nothing changes but how fine it is.
+pub fn bumpy_ball(triangles: u32) -> Scene {
+    // A sphere of mesh size n has 4 n (n − 1).
+    let mesh_size = 0.5 + (f64::from(triangles) / 4.0).sqrt();
+    let sphere = shapes::sphere(mesh_size.round() as u32);
+    let ball = object("ball", sphere, at(1.2 * DVec3::Y), ORANGE);
     scene(
         camera(dvec3(-2.2, 1.9, 3.6), dvec3(0.0, 1.1, 0.0), 40.0),
         spot(

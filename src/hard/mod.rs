@@ -25,6 +25,7 @@ mod mesh;
 mod place;
 
 pub use expected::Expected;
+pub use mesh::bumpy_ball;
 
 use crate::scene::Scene;
 use crate::{Error, Result, error};
@@ -84,17 +85,42 @@ const fn exact(lab: &'static str) -> Test {
     }
 }
 
+/// Cases that are hard for one reason.
+pub struct Theme {
+    pub title: &'static str,
+    pub cases: &'static [Case],
+}
+
+pub const THEMES: &[Theme] = &[
+    Theme {
+        title: "Light that skims over the floor",
+        cases: grazing::CASES,
+    },
+    Theme {
+        title: "Thin, single-sided and touching things",
+        cases: contact::CASES,
+    },
+    Theme {
+        title: "Where the light stands, what its beam and its depths span",
+        cases: light::CASES,
+    },
+    Theme {
+        title: "Far from the origin, very small, very large",
+        cases: place::CASES,
+    },
+    Theme {
+        title: "Wires, bumps, and triangles that a careful modeller would not make",
+        cases: mesh::CASES,
+    },
+    Theme {
+        title: "Where the map ends",
+        cases: border::CASES,
+    },
+];
+
 /// Every case, by theme.
 pub fn cases() -> impl Iterator<Item = &'static Case> {
-    let themes = [
-        grazing::CASES,
-        contact::CASES,
-        light::CASES,
-        place::CASES,
-        mesh::CASES,
-        border::CASES,
-    ];
-    themes.into_iter().flatten()
+    THEMES.iter().flat_map(|theme| theme.cases)
 }
 
 /// The case of that name.

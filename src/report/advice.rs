@@ -1,8 +1,9 @@
 //! "Which setting do I choose for this scene, and what does it cost me?"
 
-use super::Compared;
+use super::bench::EXACT;
+use super::run::Row;
 use super::summary::Summary;
-use super::words;
+use super::{Compared, words};
 
 /// Medians of one run differ from those of the next by as much.
 const AS_CHEAP: f64 = 1.05;
@@ -88,8 +89,36 @@ pub fn sentence(compared: &Compared, summaries: &[Summary]) -> String {
     text
 }
 
+/// What a test that is no handout's must not be: worse than the handout's. The exact one not by a pixel, any other one not
+/// in the interior.
+pub fn faults(compared: &Compared, summaries: &[Summary]) -> Vec<String> {
+    let handouts = &summaries[0];
+    let rows = compared.rows.iter().zip(summaries);
+    let worse = rows.filter(|(row, summary)| {
+        let tests = row.differences.iter();
+        let mut tests = tests.filter_map(|text| text.strip_prefix("shadow_test="));
+        tests.any(|test| match test {
+            "handout" => false,
+            EXACT => summary.wrong > handouts.wrong,
+            _ => summary.interior > handouts.interior,
+        })
+    });
+    let line = |(row, summary): (&Row, &Summary)| {
+        format!(
+            "{} is worse than the handout's settings: {} wrong pixels, {} of them in the interior, where those have {} and {}",
+            words::name(row),
+            summary.wrong,
+            summary.interior,
+            handouts.wrong,
+            handouts.interior
+        )
+    };
+    worse.map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::run::Calls;
     use super::super::summary::Timing;
     use super::*;
 
@@ -115,6 +144,49 @@ mod tests {
             valid: 1000,
             on_front: true,
         }
+    }
+
+    fn compared(settings: &[&str]) -> Compared {
+        let row = |setting: &&str| Row {
+            differences: setting.split_whitespace().map(str::to_owned).collect(),
+            calls: Calls { frame: 1, rest: 1 },
+            bytes: Default::default(),
+            figures: Vec::new(),
+            thumbnails: Vec::new(),
+            times: Vec::new(),
+        };
+        Compared {
+            title: String::new(),
+            set: Vec::new(),
+            rows: settings.iter().map(row).collect(),
+        }
+    }
+
+    #[test]
+    fn a_test_that_is_worse_than_the_handouts_is_told() {
+        let settings = ["", "shadow_test=exact", "shadow_test=offset", "stage=pcf"];
+        let compared = compared(&settings);
+        let same = [1.0, 1.0];
+        let rows = |exact: usize, offset: usize| {
+            [
+                row(1.0, same, 90, 0),
+                row(1.0, same, exact, 0),
+                row(1.0, same, 95, offset),
+                row(1.0, same, 99, 9),
+            ]
+        };
+        assert_eq!(faults(&compared, &rows(90, 0)), [""; 0]);
+        let told = faults(&compared, &rows(91, 0));
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(
+            told[0].starts_with("shadow_test=exact is worse"),
+            "{told:?}"
+        );
+        let told = faults(&compared, &rows(0, 1));
+        assert!(
+            told[0].starts_with("shadow_test=offset is worse"),
+            "{told:?}"
+        );
     }
 
     #[test]

@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use super::summary::{Summary, Timing};
-use super::{Compared, LabReport, Report, advice};
+use super::{Compared, LabReport, Machine, Report, advice};
+use crate::measure::Figures;
 
+/// Before the errors.
 const COLUMNS: &[&str] = &[
     "lab",
     "comparison",
@@ -36,6 +38,10 @@ const COLUMNS: &[&str] = &[
     "bytes_drawn_into",
     "bytes_textures",
     "bytes_buffers",
+];
+
+/// What is said of the errors under one light.
+pub const ERRORS: &[&str] = &[
     "valid",
     "ambiguous",
     "false_shadow",
@@ -51,35 +57,31 @@ const COLUMNS: &[&str] = &[
     "grey",
     "contact_gap",
     "contact_gap_texels",
-    "pareto",
-    "chosen",
 ];
 
 pub fn csv(report: &Report) -> String {
+    let compared = report
+        .labs
+        .iter()
+        .flat_map(|lab| lab.comparisons.iter().map(move |compared| (lab, compared)));
+    let records = compared.flat_map(|(lab, compared)| records(lab, compared));
+    table(&[COLUMNS, ERRORS, &["pareto", "chosen"]].concat(), records)
+}
+
+/// CSV with these columns.
+pub fn table(columns: &[&str], records: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |record: &[String]| {
-        let written = writer.write_record(record);
-        written.expect("lines of equal length can be written to memory");
-    };
-    write(
-        &COLUMNS
-            .iter()
-            .map(|name| (*name).to_owned())
-            .collect::<Vec<_>>(),
-    );
-    for lab in &report.labs {
-        for compared in &lab.comparisons {
-            for record in records(lab, compared) {
-                write(&record);
-            }
-        }
+    let memory = "lines of equal length can be written to memory";
+    writer.write_record(columns).expect(memory);
+    for record in records {
+        writer.write_record(record).expect(memory);
     }
     let bytes = writer.into_inner().expect("memory takes it all");
     String::from_utf8(bytes).expect("text was written")
 }
 
 /// Nothing where there is no number.
-fn optional(number: Option<f64>) -> String {
+pub fn optional(number: Option<f64>) -> String {
     number.map(|number| number.to_string()).unwrap_or_default()
 }
 
@@ -121,22 +123,7 @@ fn records(lab: &LabReport, compared: &Compared) -> Vec<Vec<String>> {
             record.extend([row.calls.frame, row.calls.rest].map(|calls| calls.to_string()));
             let bytes = row.bytes;
             record.extend([bytes.drawn_into, bytes.textures, bytes.buffers].map(|b| b.to_string()));
-            record.push((figures.lit + figures.shadowed).to_string());
-            record.push(figures.ambiguous.to_string());
-            for wrong in [&figures.false_shadow, &figures.false_light] {
-                let places = [
-                    wrong.total(),
-                    wrong.edge1,
-                    wrong.edge_t,
-                    wrong.interior,
-                    wrong.ambiguous,
-                ];
-                record.extend(places.map(|pixels| pixels.to_string()));
-            }
-            record.push(figures.grey.to_string());
-            let gap = figures.contact_gap;
-            record.push(optional(gap.map(|gap| gap.world)));
-            record.push(optional(gap.and_then(|gap| gap.texels)));
+            record.extend(errors(figures));
             record.extend([summary.on_front, i == chosen].map(|yes| yes.to_string()));
             records.push(record);
         }
@@ -144,18 +131,44 @@ fn records(lab: &LabReport, compared: &Compared) -> Vec<Vec<String>> {
     records
 }
 
+/// The fields of [`ERRORS`].
+pub fn errors(figures: &Figures) -> Vec<String> {
+    let mut fields = vec![
+        (figures.lit + figures.shadowed).to_string(),
+        figures.ambiguous.to_string(),
+    ];
+    for wrong in [&figures.false_shadow, &figures.false_light] {
+        let places = [
+            wrong.total(),
+            wrong.edge1,
+            wrong.edge_t,
+            wrong.interior,
+            wrong.ambiguous,
+        ];
+        fields.extend(places.map(|pixels| pixels.to_string()));
+    }
+    fields.push(figures.grey.to_string());
+    let gap = figures.contact_gap;
+    fields.push(optional(gap.map(|gap| gap.world)));
+    fields.push(optional(gap.and_then(|gap| gap.texels)));
+    fields
+}
+
+pub fn machine_json(machine: &Machine) -> Value {
+    json!({
+        "renderer": machine.renderer,
+        "driver": machine.driver,
+        "software": machine.software,
+        "cpu": machine.cpu,
+        "threads": machine.threads,
+        "system": machine.system,
+    })
+}
+
 pub fn json(report: &Report) -> Value {
-    let machine = &report.machine;
     json!({
         "shadowlab": env!("CARGO_PKG_VERSION"),
-        "machine": {
-            "renderer": machine.renderer,
-            "driver": machine.driver,
-            "software": machine.software,
-            "cpu": machine.cpu,
-            "threads": machine.threads,
-            "system": machine.system,
-        },
+        "machine": machine_json(&report.machine),
         "interrupted": report.interrupted.is_some(),
         "labs": report.labs.iter().map(lab_json).collect::<Vec<_>>(),
     })
@@ -171,17 +184,18 @@ fn lab_json(lab: &LabReport) -> Value {
     })
 }
 
+pub fn timing(timing: &Timing) -> Value {
+    json!({
+        "ratio": timing.ratio,
+        "ratio_95": timing.ratio_95,
+        "ms": timing.ms,
+        "ms_p95": timing.ms_95,
+    })
+}
+
 fn comparison_json(compared: &Compared) -> Value {
     let summaries = Summary::of_rows(&compared.rows);
     let chosen = advice::choice(&summaries);
-    let timing = |timing: &Timing| {
-        json!({
-            "ratio": timing.ratio,
-            "ratio_95": timing.ratio_95,
-            "ms": timing.ms,
-            "ms_p95": timing.ms_95,
-        })
-    };
     let pass = |[ms, ms_95]: [f64; 2]| json!({ "ms": ms, "ms_p95": ms_95 });
     let rows = compared.rows.iter().zip(&summaries).enumerate();
     let rows = rows.map(|(i, (row, summary))| {
@@ -214,6 +228,7 @@ fn comparison_json(compared: &Compared) -> Value {
         "title": compared.title,
         "set": compared.set,
         "advice": advice::sentence(compared, &summaries),
+        "faults": advice::faults(compared, &summaries),
         "rows": rows.collect::<Vec<_>>(),
     })
 }

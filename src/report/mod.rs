@@ -2,6 +2,8 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | [`hard`] | the hard cases, each under every test |
+//! | [`scaling`] | how cost grows with triangles and texels |
 //! | `sweep.rs` | which rows there are: the combinations of settings |
 //! | `run.rs` | measuring them, in rounds |
 //! | `truths.rs` | the truth of each scene, cast once |
@@ -9,9 +11,11 @@
 //! | `advice.rs` | the sentence that says which setting to choose, and what it costs |
 //! | `statistics.rs` | medians and intervals of a sample |
 //! | `thumbnail.rs` | the mistakes, small |
-//! | `plot.rs` | error against time |
+//! | `plot.rs`, `labels.rs` | error against time; what is written beside its points |
 //! | `bars.rs` | a frame taken apart |
 //! | `page.rs`, `files.rs` | the page; CSV and JSON |
+//! | `sheet.rs` | what every page begins with |
+//! | `bench.rs` | a lab that is started with a scene of the report's own |
 //! | `words.rs` | figures and rows as a reader sees them |
 //! | `machine.rs` | what it was measured on |
 //!
@@ -20,11 +24,16 @@
 
 mod advice;
 mod bars;
+mod bench;
 mod files;
+pub mod hard;
+mod labels;
 mod machine;
 mod page;
 mod plot;
 mod run;
+pub mod scaling;
+mod sheet;
 mod statistics;
 mod summary;
 mod sweep;
@@ -33,6 +42,9 @@ mod truths;
 mod words;
 
 use std::path::{Path, PathBuf};
+
+use maud::Markup;
+use serde_json::Value;
 
 pub use machine::Machine;
 pub use run::{Calls, Row, Subject, Times, measure, steps};
@@ -69,30 +81,46 @@ pub struct Compared {
 }
 
 impl Report {
-    /// The sentences that say which setting to choose, one for each comparison.
+    /// The sentences that say which setting to choose, one for each comparison; behind it, what is worse than it may be.
     pub fn advice(&self) -> Vec<String> {
         let labs = self.labs.iter();
         let advice = labs.flat_map(|lab| {
             lab.comparisons.iter().map(|compared| {
-                let advice = advice::sentence(compared, &Summary::of_rows(&compared.rows));
-                format!("{}, {}: {advice}", lab.handout.name, compared.title)
+                let summaries = Summary::of_rows(&compared.rows);
+                let faults = advice::faults(compared, &summaries);
+                let faults = faults.into_iter().map(|fault| format!("WORSE: {fault}"));
+                let lines = std::iter::once(advice::sentence(compared, &summaries)).chain(faults);
+                let name = format!("{}, {}", lab.handout.name, compared.title);
+                lines
+                    .map(|line| format!("{name}: {line}"))
+                    .collect::<Vec<_>>()
             })
         });
-        advice.collect()
+        advice.flatten().collect()
     }
 
     /// Writes `report.csv`, `report.json` and `index.html`, each whole or not at all; returns the page's name.
     pub fn write(&self, folder: &Path) -> Result<PathBuf> {
-        std::fs::create_dir_all(folder).map_err(|cause| Error::writing(folder, cause))?;
-        let write = |name: &str, text: &str| {
-            let path = folder.join(name);
-            picture::write_whole(&path, |file| {
-                std::io::Write::write_all(file, text.as_bytes())
-            })?;
-            Ok(path)
-        };
-        write("report.csv", &files::csv(self))?;
-        write("report.json", &format!("{:#}\n", files::json(self)))?;
-        write("index.html", &page::page(self).into_string())
+        write(
+            folder,
+            &files::csv(self),
+            &files::json(self),
+            page::page(self),
+        )
     }
+}
+
+/// The three files of a report; returns the page's name.
+fn write(folder: &Path, csv: &str, json: &Value, page: Markup) -> Result<PathBuf> {
+    std::fs::create_dir_all(folder).map_err(|cause| Error::writing(folder, cause))?;
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        picture::write_whole(&path, |file| {
+            std::io::Write::write_all(file, text.as_bytes())
+        })?;
+        Ok(path)
+    };
+    write("report.csv", csv)?;
+    write("report.json", &format!("{json:#}\n"))?;
+    write("index.html", &page.into_string())
 }

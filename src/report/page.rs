@@ -1,63 +1,23 @@
 //! The report as one page that needs no other file.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::run::Row;
+use super::sheet::sheet;
 use super::summary::{Summary, Timing};
-use super::{Compared, LabReport, Report, advice, bars, plot, words};
+use super::{Compared, LabReport, Report, advice, bars, plot, thumbnail, words};
 use crate::labs::Setting;
 use crate::measure::{Figures, Wrong};
 
-const STYLE: &str = "
-    body { font: 16px/1.45 sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
-    .loud { background: #b00020; color: #fff; padding: 0.6rem 1rem; font-weight: bold; }
-    .advice { border-left: 4px solid #0072b2; padding-left: 0.8rem; max-width: 60rem; }
-    .plot svg { max-width: 100%; height: auto; }
-    .legend { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: 0.2rem 1.4rem; font-size: 0.9rem; }
-    .legend b { display: inline-block; width: 0.8rem; height: 0.8rem; border-radius: 50%; margin-right: 0.4rem; }
-    .wide { overflow-x: auto; }
-    table { border-collapse: collapse; font-size: 0.8rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
-    th, td { border-bottom: 1px solid #ddd; padding: 0.15rem 0.5rem; text-align: right; }
-    th { border-bottom-color: #888; vertical-align: bottom; }
-    td.name { text-align: left; }
-    tr.chosen { background: #e3f0f8; }
-    tr.front td:first-child { font-weight: bold; }
-    section { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1rem; }
-    figure { margin: 0; font-size: 0.8rem; }
-    img { width: 100%; border: 1px solid #ccc; image-rendering: pixelated; }
-    code { font-size: 0.85rem; color: #555; }
-";
-
 pub fn page(report: &Report) -> Markup {
-    let machine = &report.machine;
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width";
-                title { "shadowlab: speed against error" }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                h1 { "Speed against error" }
-                @if machine.software {
-                    p.loud { "SOFTWARE RENDERER: these are the times of a CPU. A GPU has others, and other ratios." }
-                }
-                @if let Some(rounds) = report.interrupted {
-                    p.loud { "INTERRUPTED: of " (rounds) " rounds, only those that were finished." }
-                }
-                p {
-                    "Drawn by " b { (machine.renderer) } ", driver " b { (machine.driver) } ", on "
-                    b { (machine.cpu) } " (" (machine.threads) " threads, " (machine.system) ")."
-                }
-                (reading())
-                @for lab in &report.labs { (of_lab(lab)) }
-            }
-        }
-    }
+    let interrupted = report
+        .interrupted
+        .map(|rounds| format!("INTERRUPTED: of {rounds} rounds, only those that were finished."));
+    let body = html! {
+        (reading())
+        @for lab in &report.labs { (of_lab(lab)) }
+    };
+    sheet("Speed against error", &report.machine, interrupted, body)
 }
 
 /// How to read what follows.
@@ -111,15 +71,16 @@ fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
     let rounds = compared.rows[0].times.len();
     html! {
         h3 { (compared.title) }
+        @for fault in advice::faults(compared, &summaries) { p.loud { "WORSE: " (fault) } }
         @if !compared.set.is_empty() { p { "All rows: " code { (compared.set.join(" ")) } } }
         p.advice {
             b { "Which setting do I choose for this scene, and what does it cost me? " }
-            (capitalised(&advice::sentence(compared, &summaries)))
+            (words::capitalised(&advice::sentence(compared, &summaries)))
         }
         div.plot { (PreEscaped(plot::svg(table, compared, &summaries))) }
         ul.legend {
             @for series in plot::series(table, compared, &summaries) {
-                li { b style=(swatch(series.color)) {} (series.name) }
+                li { b.round[series.round] style=(swatch(series.color)) {} (series.name) }
             }
         }
         p {
@@ -132,9 +93,9 @@ fn of_comparison(table: &[Setting], compared: &Compared) -> Markup {
         div.wide { (rows(compared, &summaries)) }
         h4 { "Where they are wrong" }
         p { "False shadow red, false light blue, shadow dark grey, light bright grey. A mistake of a single pixel is kept." }
-        section {
+        div {
             @for (i, row) in compared.rows.iter().enumerate() {
-                @for light in 0..row.figures.len() { (thumbnail(i, row, light)) }
+                @for light in 0..row.figures.len() { (mistakes(i, row, light)) }
             }
         }
     }
@@ -159,12 +120,6 @@ fn front(compared: &Compared, summaries: &[Summary]) -> String {
 
 fn swatch([red, green, blue]: [u8; 3]) -> String {
     format!("background: rgb({red}, {green}, {blue})")
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
 }
 
 /// The frame of each row in bars, and the handout's in words.
@@ -210,7 +165,7 @@ fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
                     th {} th { "GL calls" } th { "MiB" }
                 }
                 tr {
-                    th { "#" } th { "settings" }
+                    th { "#" } th.name { "settings" }
                     th { "moving" } th { "at rest" }
                     th { "false shadow" } th { "false light" }
                     th { "grey" } th { "gap" } th { "ambiguous" }
@@ -245,7 +200,7 @@ fn rows(compared: &Compared, summaries: &[Summary]) -> Markup {
     }
 }
 
-fn ratio(timing: &Timing) -> String {
+pub fn ratio(timing: &Timing) -> String {
     let ratio = words::ratio(timing.ratio);
     match timing.ratio_95 {
         Some(interval) => format!("{ratio} ({})", words::interval(Some(interval))),
@@ -253,7 +208,7 @@ fn ratio(timing: &Timing) -> String {
     }
 }
 
-fn milliseconds([median, percentile_95]: [f64; 2]) -> String {
+pub fn milliseconds([median, percentile_95]: [f64; 2]) -> String {
     format!(
         "{} ({})",
         words::milliseconds(median),
@@ -271,7 +226,7 @@ fn of_lights(row: &Row, text: impl Fn(&Figures) -> String) -> String {
     row.figures.iter().map(text).collect::<Vec<_>>().join(" | ")
 }
 
-fn wrong(wrong: &Wrong) -> String {
+pub fn wrong(wrong: &Wrong) -> String {
     let Wrong {
         edge1,
         edge_t,
@@ -281,22 +236,19 @@ fn wrong(wrong: &Wrong) -> String {
     format!("{} = {edge1} + {edge_t} + {interior}", wrong.total())
 }
 
-fn gap(figures: &Figures) -> String {
+pub fn gap(figures: &Figures) -> String {
     figures
         .contact_gap
         .map_or("–".to_owned(), |gap| format!("{:.3}", gap.world))
 }
 
-fn ambiguous(figures: &Figures) -> String {
+pub fn ambiguous(figures: &Figures) -> String {
     let wrong = figures.false_shadow.ambiguous + figures.false_light.ambiguous;
     format!("{wrong} of {}", figures.ambiguous)
 }
 
-fn thumbnail(i: usize, row: &Row, light: usize) -> Markup {
-    let picture = format!(
-        "data:image/png;base64,{}",
-        STANDARD.encode(&row.thumbnails[light])
-    );
+fn mistakes(i: usize, row: &Row, light: usize) -> Markup {
+    let picture = thumbnail::data_url(&row.thumbnails[light]);
     let figures = &row.figures[light];
     html! {
         figure {

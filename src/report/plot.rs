@@ -5,6 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Compared;
+use super::labels::{RADIUS, labels};
 use super::run::Row;
 use super::summary::Summary;
 use super::words;
@@ -15,7 +16,7 @@ const SIZE: (u32, u32) = (860, 500);
 
 /// Told apart by the colour-blind, too: Okabe and Ito (2008), without their yellow, which white paper swallows; then a
 /// grey, a brown and a dark purple.
-const COLORS: [RGBColor; 10] = [
+pub const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -28,8 +29,13 @@ const COLORS: [RGBColor; 10] = [
     RGBColor(90, 40, 140),
 ];
 
-/// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, and the axis says 0.
+/// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, in a band of its own.
 const FLOOR: f64 = 0.5;
+/// Where the band ends.
+const FLOOR_TOP: f64 = 0.72;
+
+/// How far beyond the points their intervals can stretch the axis of cost.
+const BEYOND: f64 = 1.5;
 
 /// Maps of several sizes are one method: their rows are joined, whatever else tells rows apart.
 const MAP_SIZE: &str = "map_size";
@@ -38,6 +44,8 @@ const MAP_SIZE: &str = "map_size";
 pub struct Series {
     pub name: String,
     pub color: [u8; 3],
+    /// Discs, and squares for those that find no colour of their own any more.
+    pub round: bool,
     /// From the cheapest on.
     rows: Vec<usize>,
 }
@@ -53,6 +61,7 @@ pub fn series(table: &[Setting], compared: &Compared, summaries: &[Summary]) -> 
                 series.push(Series {
                     name,
                     color: [red, green, blue],
+                    round: series.len() < COLORS.len(),
                     rows: vec![i],
                 });
             }
@@ -103,19 +112,27 @@ fn place(summary: &Summary) -> (f64, f64) {
 }
 
 fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut String) -> Drawn {
-    let ends = summaries
-        .iter()
-        .flat_map(|row| row.frame.ratio_95.unwrap_or([row.frame.ratio; 2]));
-    let (low, high) = ends.fold((1.0_f64, 1.0_f64), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let extent = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));
+    let costs = summaries.iter().map(|row| row.frame.ratio);
+    let (cheapest, dearest) = costs.fold((1.0, 1.0), extent);
+    let ends = summaries.iter().flat_map(|row| row.frame.ratio_95);
+    let (low, high) = ends.flatten().fold((cheapest, dearest), extent);
+    // An interval that goes far beyond all points must not press them together: the axis cuts it off.
+    let (low, high) = (low.max(cheapest / BEYOND), high.min(dearest * BEYOND));
     let heights = || summaries.iter().map(|row| place(row).1);
     let least = heights().fold(f64::INFINITY, f64::min);
     let most = heights().fold(10.0, f64::max);
     // The axis begins with a power of ten, or with the place of 0.
     let least = decades(least).last().copied().unwrap_or(FLOOR);
-    let (x, y) = (0.93 * low..1.08 * high, 0.8 * least..1.6 * most);
-    let y_ticks = [vec![FLOOR], decades(most)].concat();
+    // And it ends with one, where that is near.
+    let next = 10_f64.powf(most.log10().ceil());
+    let top = if next < 2.0 * most {
+        1.15 * next
+    } else {
+        1.6 * most
+    };
+    let (x, y) = (0.93 * low..1.08 * high, 0.8 * least..top);
+    let y_ticks = [vec![FLOOR], decades(top)].concat();
     let y_ticks = y_ticks
         .into_iter()
         .filter(|tick| y.contains(tick))
@@ -137,19 +154,27 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         .x_label_formatter(&|x| format!("{}", (1000.0 * x).round() / 1000.0))
         .y_label_formatter(&|y| {
             if *y < 1.0 {
-                "0".to_owned()
+                "none".to_owned()
             } else {
-                format!("{y}")
+                words::thousands(*y as u64)
             }
         })
         .x_desc(format!(
             "frame time while light or casters move, × the handout's ({} ms)",
             words::milliseconds(summaries[0].frame.ms)
         ))
-        .y_desc("wrong pixels")
+        .y_desc(format!(
+            "wrong pixels, of {} that face the light",
+            words::thousands(summaries[0].valid as u64)
+        ))
         .label_style(("sans-serif", 15))
         .axis_desc_style(("sans-serif", 17))
         .draw()?;
+
+    if y.start < FLOOR_TOP {
+        let band = [(x.start, y.start), (x.end, FLOOR_TOP)];
+        chart.draw_series([Rectangle::new(band, BLACK.mix(0.06).filled())])?;
+    }
 
     // The front: whatever lies to the right of and above it is beaten.
     let on_front = summaries.iter().filter(|row| row.on_front);
@@ -171,13 +196,21 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         for summary in series.rows.iter().map(|i| &summaries[*i]) {
             let point = place(summary);
             if let Some([from, to]) = summary.frame.ratio_95 {
+                let (from, to) = (from.max(x.start), to.min(x.end));
                 let interval = vec![(from, point.1), (to, point.1)];
                 chart.draw_series([PathElement::new(interval, color.mix(0.5))])?;
             }
             // Hollow: wrong in the interior, too.
             let inside = if summary.interior == 0 { color } else { WHITE };
-            chart.draw_series([Circle::new(point, RADIUS, inside.filled())])?;
-            chart.draw_series([Circle::new(point, RADIUS, color.stroke_width(2))])?;
+            for style in [inside.filled(), color.stroke_width(2)] {
+                let corners = [(-RADIUS, -RADIUS), (RADIUS, RADIUS)];
+                let marker = EmptyElement::at(point);
+                if series.round {
+                    chart.draw_series([marker + Circle::new((0, 0), RADIUS, style)])?;
+                } else {
+                    chart.draw_series([marker + Rectangle::new(corners, style)])?;
+                }
+            }
         }
     }
 
@@ -187,49 +220,18 @@ fn draw(table: &[Setting], compared: &Compared, summaries: &[Summary], svg: &mut
         .collect();
     let style = ("sans-serif", 14).into_text_style(&root).color(&BLACK);
     let style = style.pos(Pos::new(HPos::Center, VPos::Center));
-    for (label, at) in labels(&points, summaries) {
-        root.draw(&Text::new(label, at, style.clone()))?;
+    let (across, down) = chart.plotting_area().get_pixel_range();
+    let corner = (across.start, down.end);
+    let names: Vec<String> = compared.rows.iter().map(words::name).collect();
+    for label in labels(&points, summaries, &names, corner) {
+        root.draw(&Text::new(label.text, label.at, style.clone()))?;
     }
     root.present()?;
     Ok(())
 }
 
-/// Of a point, in pixels.
-const RADIUS: i32 = 5;
-/// How far a number's middle is from its point, and half its width and height.
-const BESIDE: (i32, i32) = (13, 11);
-const HALF_LABEL: (i32, i32) = (8, 6);
-
-/// The rows' numbers and where to write them: beside each point, where neither point nor number is in the way yet. The
-/// front's come first; a number that finds no room is left out.
-fn labels(points: &[(i32, i32)], summaries: &[Summary]) -> Vec<(String, (i32, i32))> {
-    let mut rows: Vec<usize> = (0..points.len()).collect();
-    rows.sort_by_key(|i| !summaries[*i].on_front);
-    let mut labels: Vec<(String, (i32, i32))> = Vec::new();
-    for i in rows {
-        let (x, y) = points[i];
-        let around = [(1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (0, 1)];
-        let mut around = around
-            .map(|(right, down)| (x + BESIDE.0 * right, y + BESIDE.1 * down))
-            .into_iter();
-        let is_free = |at: &(i32, i32)| {
-            let apart = |other: &(i32, i32), by: (i32, i32)| {
-                (at.0 - other.0).abs() >= by.0 || (at.1 - other.1).abs() >= by.1
-            };
-            let from_point = (HALF_LABEL.0 + RADIUS, HALF_LABEL.1 + RADIUS);
-            let from_label = (2 * HALF_LABEL.0, 2 * HALF_LABEL.1);
-            points.iter().all(|point| apart(point, from_point))
-                && labels.iter().all(|(_, label)| apart(label, from_label))
-        };
-        if let Some(free) = around.find(is_free) {
-            labels.push(((i + 1).to_string(), free));
-        }
-    }
-    labels
-}
-
 /// Round numbers within a range, close enough for a reader to see the factors between them.
-fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+pub fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     let factor = range.end / range.start;
     let steps: &[f64] = if factor < 4.0 {
         &[

@@ -69,15 +69,15 @@ pub struct Times {
 }
 
 /// A row that is being measured.
-struct Running {
+pub(super) struct Running {
     settings: Settings,
     /// The headings of a frame at rest.
     rest_passes: Vec<String>,
-    row: Row,
+    pub row: Row,
 }
 
 /// Setting up a row and casting its truth takes about as long as this many visits.
-const PREPARATION: u64 = 2;
+pub(super) const PREPARATION: u64 = 2;
 
 /// How much there is to do, in the steps of [`measure`]'s progress.
 pub fn steps(rows: usize, rounds: usize) -> u64 {
@@ -145,7 +145,7 @@ pub fn measure(
 }
 
 /// In which order a round visits the rows.
-fn order(round: usize, rows: usize) -> Vec<usize> {
+pub(super) fn order(round: usize, rows: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows).map(|i| (i + round) % rows).collect();
     if round % 2 == 1 {
         order.reverse();
@@ -154,7 +154,7 @@ fn order(round: usize, rows: usize) -> Vec<usize> {
 }
 
 /// Everything about a row that is the same in every round.
-fn prepare(
+pub(super) fn prepare(
     subject: &mut Subject,
     settings: Settings,
     differences: Vec<String>,
@@ -219,7 +219,7 @@ fn prepare(
 }
 
 /// One visit of a row: a frame that nobody times, since the row before had other settings, and then the timed ones.
-fn visit(subject: &mut Subject, running: &Running) -> Result<Times> {
+pub(super) fn visit(subject: &mut Subject, running: &Running) -> Result<Times> {
     let gl = &subject.context.gl;
     let lab = &mut *subject.lab;
     *lab.settings() = running.settings.clone();

@@ -112,6 +112,15 @@ impl Plan {
         handout.comparisons.iter().map(plan).collect()
     }
 
+    /// Rows that somebody else has chosen: what each sets, the handout's first.
+    pub fn of_rows(title: &str, rows: Vec<Vec<String>>) -> Self {
+        Self {
+            title: title.to_owned(),
+            set: Vec::new(),
+            rows,
+        }
+    }
+
     /// What a command line asks for: one plan, or one for each scene.
     pub fn of_sweeps(title: &str, sweeps: &[Sweep]) -> Result<Vec<Self>> {
         for (i, sweep) in sweeps.iter().enumerate() {

@@ -2,6 +2,8 @@
 
 use std::io::Cursor;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use image::{ImageFormat, Rgb, RgbImage};
 
 use crate::measure::{FALSE_LIGHT, FALSE_SHADOW};
@@ -15,6 +17,11 @@ pub fn png(mistakes: &RgbImage) -> Vec<u8> {
     let written = reduced(mistakes).write_to(&mut bytes, ImageFormat::Png);
     written.expect("a picture in memory can be written to memory");
     bytes.into_inner()
+}
+
+/// A picture that stands in the page itself.
+pub fn data_url(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
 
 /// Each pixel stands for a square of the picture: it is a mistake where the square has one, however small.

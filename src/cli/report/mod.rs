@@ -1,10 +1,14 @@
-//! `shadowlab report`: speed against error, as a page, CSV and JSON.
+//! `shadowlab report`: speed against error, as a page, CSV and JSON; of labs, of the hard cases, and as scenes grow.
 
-use std::path::PathBuf;
+mod hard;
+mod scaling;
+
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
+use shadowlab::error::did_you_mean;
 use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, LABS, Settings};
 use shadowlab::progress::Progress;
@@ -14,12 +18,13 @@ use shadowlab::report::{
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
 
-use super::print;
-use super::state::{Changes, Drawing, State};
+use crate::cli::print;
+use crate::cli::state::{Changes, Drawing, State};
 
 #[derive(Args)]
 pub struct ReportCommand {
-    /// The lab's name, as `shadowlab labs` lists it [default: every lab]
+    /// The lab's name, as `shadowlab labs` lists it [default: every lab]; or hard: every hard case under every test; or
+    /// scaling: how cost grows with triangles and texels
     lab: Option<String>,
     #[command(flatten)]
     changes: Changes,
@@ -27,9 +32,12 @@ pub struct ReportCommand {
     /// [default: the lab's own comparisons]
     #[arg(long = "sweep", value_name = "NAME=VALUES")]
     sweeps: Vec<String>,
-    /// How many times each row is timed
-    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    rounds: u16,
+    /// How many times each row is timed [default: 30; hard: 6; scaling: 9]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: Option<u16>,
+    /// scaling: how many triangles the largest scene has [default: 1000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(10_000..=10_000_000))]
+    triangles: Option<u32>,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
@@ -37,6 +45,13 @@ pub struct ReportCommand {
     #[arg(short, long = "output", value_name = "DIR")]
     output: PathBuf,
 }
+
+/// How many times the rows of a lab are timed.
+const ROUNDS: u16 = 30;
+
+/// Names that no lab has.
+const HARD: &str = "hard";
+const SCALING: &str = "scaling";
 
 /// A lab and what is to be compared in it.
 struct Task {
@@ -46,12 +61,32 @@ struct Task {
 
 impl ReportCommand {
     pub fn run(self) -> Result<()> {
-        let tasks = self.tasks()?;
+        let name = self.lab.as_deref();
+        if self.triangles.is_some() && name != Some(SCALING) {
+            return Err(Error::usage("--triangles: expected report scaling"));
+        }
+        match name {
+            Some(HARD) => {
+                self.check_hard()?;
+                self.with_folder(|| self.hard())
+            }
+            Some(SCALING) => {
+                self.check_scaling()?;
+                self.with_folder(|| self.scaling())
+            }
+            _ => {
+                let tasks = self.tasks()?;
+                self.with_folder(|| self.fill(tasks))
+            }
+        }
+    }
+
+    fn with_folder(&self, fill: impl FnOnce() -> Result<()>) -> Result<()> {
         // That there can be no such folder should not be found out after minutes.
         let was_there = self.output.is_dir();
         std::fs::create_dir_all(&self.output)
             .map_err(|cause| Error::writing(&self.output, cause))?;
-        self.fill(tasks).inspect_err(|_| {
+        fill().inspect_err(|_| {
             if !was_there {
                 // Where the rounds that were finished are in it, it stays.
                 let _ = std::fs::remove_dir(&self.output);
@@ -61,7 +96,7 @@ impl ReportCommand {
 
     fn fill(&self, tasks: Vec<Task>) -> Result<()> {
         let stop = raised_by_ctrl_c()?;
-        let rounds = usize::from(self.rounds);
+        let rounds = usize::from(self.rounds.unwrap_or(ROUNDS));
         let mut count = 0;
         for task in &tasks {
             let now = Settings::new(task.handout.settings);
@@ -100,19 +135,13 @@ impl ReportCommand {
             interrupted: interrupted.then_some(rounds),
         };
         let page = report.write(&self.output)?;
-        let text: String = report
-            .advice()
-            .iter()
-            .map(|line| format!("{line}\n"))
-            .collect();
-        print(&format!("{text}{}\n", page.display()))?;
-        if !interrupted {
-            return Ok(());
-        }
-        Err(Error::Interrupted(format!(
-            "interrupted: {} has the rounds that were finished of {rounds}",
-            page.display()
-        )))
+        let interrupted = interrupted.then(|| {
+            format!(
+                "interrupted: {} has the rounds that were finished of {rounds}",
+                page.display()
+            )
+        });
+        finish(&report.advice(), &page, interrupted)
     }
 
     fn tasks(&self) -> Result<Vec<Task>> {
@@ -129,7 +158,7 @@ impl ReportCommand {
             let with_maps = LABS.iter().filter(|lab| !lab.comparisons.is_empty());
             return with_maps.copied().map(task).collect();
         };
-        let handout = labs::find(name)?;
+        let handout = labs::find(name).map_err(|error| also(&error, name))?;
         if handout.comparisons.is_empty() {
             return Err(Error::usage(format!(
                 "report: {name} has no shadow map to be drawn and looked up, expected a lab that has one"
@@ -199,6 +228,19 @@ impl ReportCommand {
         }
         options
     }
+}
+
+/// Prints what was found and where the page is; an error where Ctrl-C kept it from being all.
+fn finish(lines: &[String], page: &Path, interrupted: Option<String>) -> Result<()> {
+    let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
+    print(&format!("{text}{}\n", page.display()))?;
+    interrupted.map_or(Ok(()), |message| Err(Error::Interrupted(message)))
+}
+
+/// What is no lab may be meant to be one of the other names.
+fn also(error: &Error, name: &str) -> Error {
+    let hint = did_you_mean(name, [HARD, SCALING]);
+    Error::usage(format!("{error}, {HARD} or {SCALING}{hint}"))
 }
 
 /// A flag that the first Ctrl-C raises; the second one ends the program.
