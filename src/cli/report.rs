@@ -1,5 +1,7 @@
 //! `shadowlab report`: speed against error, as a page, CSV and JSON.
 
+mod soft;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,7 +11,7 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, LABS, Settings};
 use shadowlab::progress::Progress;
 use shadowlab::report::{
-    Compared, LabReport, Machine, Plan, Report, Subject, Sweep, measure, steps,
+    self, Compared, LabReport, Machine, Plan, Report, Subject, Sweep, measure, steps,
 };
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
@@ -27,9 +29,9 @@ pub struct ReportCommand {
     /// [default: the lab's own comparisons]
     #[arg(long = "sweep", value_name = "NAME=VALUES")]
     sweeps: Vec<String>,
-    /// How many times each row is timed
-    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    rounds: u16,
+    /// How many times each row is timed [default: 30; eecs487: 12]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: Option<u16>,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
@@ -37,6 +39,9 @@ pub struct ReportCommand {
     #[arg(short, long = "output", value_name = "DIR")]
     output: PathBuf,
 }
+
+/// How many times the rows of a lab with shadow maps are timed.
+const ROUNDS: u16 = 30;
 
 /// A lab and what is to be compared in it.
 struct Task {
@@ -46,12 +51,23 @@ struct Task {
 
 impl ReportCommand {
     pub fn run(self) -> Result<()> {
+        let mut averages = LABS.iter().copied().filter(|lab| report::soft::is_for(lab));
+        let averages = averages.find(|lab| Some(lab.name) == self.lab.as_deref());
+        if let Some(handout) = averages {
+            self.check_soft(handout)?;
+            let rounds = self.rounds.unwrap_or(soft::ROUNDS).into();
+            return self.into_folder(|| self.soft(handout, rounds));
+        }
         let tasks = self.tasks()?;
+        self.into_folder(|| self.fill(tasks))
+    }
+
+    fn into_folder(&self, fill: impl FnOnce() -> Result<()>) -> Result<()> {
         // That there can be no such folder should not be found out after minutes.
         let was_there = self.output.is_dir();
         std::fs::create_dir_all(&self.output)
             .map_err(|cause| Error::writing(&self.output, cause))?;
-        self.fill(tasks).inspect_err(|_| {
+        fill().inspect_err(|_| {
             if !was_there {
                 // Where the rounds that were finished are in it, it stays.
                 let _ = std::fs::remove_dir(&self.output);
@@ -61,7 +77,7 @@ impl ReportCommand {
 
     fn fill(&self, tasks: Vec<Task>) -> Result<()> {
         let stop = raised_by_ctrl_c()?;
-        let rounds = usize::from(self.rounds);
+        let rounds = usize::from(self.rounds.unwrap_or(ROUNDS));
         let mut count = 0;
         for task in &tasks {
             let now = Settings::new(task.handout.settings);
@@ -130,11 +146,6 @@ impl ReportCommand {
             return with_maps.copied().map(task).collect();
         };
         let handout = labs::find(name)?;
-        if handout.comparisons.is_empty() {
-            return Err(Error::usage(format!(
-                "report: {name} has no shadow map to be drawn and looked up, expected a lab that has one"
-            )));
-        }
         if self.changes.sets("redraw") {
             return Err(Error::usage(
                 "--set redraw: every row is measured with the shadow pass drawn and at rest",

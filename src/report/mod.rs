@@ -12,6 +12,7 @@
 //! | `plot.rs` | error against time |
 //! | `page.rs`, `files.rs` | the page; CSV and JSON |
 //! | `words.rs` | figures and rows as a reader sees them |
+//! | [`soft`] | soft shadows from many lights: a report of its own |
 //! | `machine.rs` | what it was measured on |
 //!
 //! It is a room of its own, above the labs and the contexts, because it needs both and neither needs it: a lab is known
@@ -23,6 +24,7 @@ mod machine;
 mod page;
 mod plot;
 mod run;
+pub mod soft;
 mod statistics;
 mod summary;
 mod sweep;
