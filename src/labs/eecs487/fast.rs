@@ -11,7 +11,8 @@ use glam::dvec3;
 use glow::HasContext;
 
 use super::Eecs487;
-use super::draw_scene::{Look, View, set_light};
+use super::draw_scene::View;
+use super::look::{Look, set_light};
 use super::masks::{JittersSent, LIGHTS_PER_MASK, Masks};
 use super::scene::Wall;
 use super::selection::{MadeFor, Selection};

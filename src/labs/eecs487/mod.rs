@@ -6,7 +6,7 @@
 //! | 2. Clipped projected shadows | `draw_scene.rs`: `draw_scene`, `populate_stencil` |
 //! | Table 1 | `settings.rs`: `KEYS`, `kbd` |
 //! | 3. Soft shadows | `soft.rs`: `display`, `soft_shadows`; `jitter.rs` |
-//! | 4. Framebuffer object | `fbo_accum.rs`: `fbo_accum_init`, `fbo_accum`, `fbo_accum_return` |
+//! | 4. Framebuffer object | `fbo_accum.rs`: `fbo_accum_init`, `fbo_accum`, `fbo_accum_return`; `accum_buffers.rs` |
 //! | 5. Banding in a limited buffer | the settings `accumulator`, `accumulation` and `scene=ramp`; `s8.rs` |
 //!
 //! `fast.rs` draws the same picture as section 3, for each light again only where it matters which one it is.
@@ -19,11 +19,13 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
+mod accum_buffers;
 mod draw_scene;
 mod explain;
 mod fast;
 mod fbo_accum;
 pub mod jitter;
+mod look;
 mod masks;
 mod occluders;
 mod programs;
@@ -35,6 +37,7 @@ mod shadow_masks;
 mod shadow_matrix;
 mod soft;
 mod stages;
+mod topology;
 mod umbra;
 
 use std::path::Path;

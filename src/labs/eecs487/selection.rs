@@ -10,7 +10,8 @@ use glow::HasContext;
 
 use super::occluders::Occluder;
 use super::scene::{WALLS, Wall};
-use super::umbra::{Caster, Cube, Parts, Topology};
+use super::topology::Topology;
+use super::umbra::{Caster, Cube, Parts};
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::{Error, Result};
 

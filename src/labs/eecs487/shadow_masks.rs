@@ -7,7 +7,8 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 use super::Eecs487;
-use super::draw_scene::{Look, View, set_light};
+use super::draw_scene::View;
+use super::look::{Look, set_light};
 use super::masks::{LIGHTS_PER_MASK, Masks};
 use super::scene::Wall;
 use super::selection::Selection;

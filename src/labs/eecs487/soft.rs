@@ -7,9 +7,9 @@ use glam::DVec3;
 use glow::HasContext;
 
 use super::Eecs487;
-use super::draw_scene::Look;
 use super::fbo_accum::FboAccum;
 use super::jitter::jitter;
+use super::look::Look;
 use crate::labs::Show;
 use crate::{Error, Result, gl};
 

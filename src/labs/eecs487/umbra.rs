@@ -4,13 +4,12 @@
 //! that has a triangle on one side alone, or whose two triangles face the light differently. Between these edges a point
 //! that one light does not reach is reached by none. A grid over the wall says where they fall.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
-use glam::{DVec2, DVec3, Vec3, Vec3Swizzles, dvec2, dvec3};
+use glam::{DVec2, DVec3, Vec3Swizzles, dvec2, dvec3};
 
 use super::scene::Wall;
-use crate::scene::Mesh;
+use super::topology::{Edge, Topology};
 
 /// Along a wall's edge. Some pixels fall into a cell of the course's window.
 const CELLS: usize = 128;
@@ -31,59 +30,6 @@ impl Cube {
             let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
             self.centre + self.reach * dvec3(sign(1), sign(2), sign(4))
         })
-    }
-}
-
-/// An edge, and the two triangles on its sides where there are two that agree on which way is out.
-struct Edge {
-    ends: [usize; 2],
-    faces: Option<[usize; 2]>,
-}
-
-/// Which triangles of a mesh meet at which edges.
-pub struct Topology {
-    edges: Vec<Edge>,
-    /// Every edge has two triangles: what the front of such a mesh covers, its back covers, too.
-    is_closed: bool,
-}
-
-impl Topology {
-    /// Vertices in the same place, as GL has it, are one, whatever their normals.
-    pub fn new(mesh: &Mesh) -> Self {
-        let mut places = HashMap::new();
-        // Also -0 and 0 are the same place.
-        let bits = |p: &DVec3| (p.as_vec3() + Vec3::ZERO).to_array().map(f32::to_bits);
-        let mut place = |i: usize| *places.entry(bits(&mesh.positions[i])).or_insert(i);
-        let places: Vec<usize> = (0..mesh.positions.len()).map(&mut place).collect();
-        let mut faces: HashMap<[usize; 2], Vec<usize>> = HashMap::new();
-        for (number, face) in mesh.faces.iter().enumerate() {
-            let [a, b, c] = face.map(|i| places[i as usize]);
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                // At a pole an edge may have no length.
-                if from != to {
-                    faces.entry([from, to]).or_default().push(number);
-                }
-            }
-        }
-        let mut edges = Vec::new();
-        for (ends @ [from, to], there) in &faces {
-            let back = faces.get(&[*to, *from]);
-            let pair = match (&there[..], back.map(Vec::as_slice)) {
-                ([one], Some([other])) => Some([*one, *other]),
-                _ => None,
-            };
-            // An edge that is passed both ways is met twice.
-            if from < to || back.is_none() {
-                edges.push(Edge {
-                    ends: *ends,
-                    faces: pair,
-                });
-            }
-        }
-        Self {
-            is_closed: edges.iter().all(|edge| edge.faces.is_some()),
-            edges,
-        }
     }
 }
 
@@ -377,120 +323,4 @@ fn rectangles(cells: &[bool]) -> Vec<[DVec2; 2]> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{Object, shapes};
-    use glam::{DMat4, dvec4};
-
-    fn floor() -> Wall {
-        Wall {
-            name: "floor",
-            color: DVec3::ONE,
-            plane: dvec4(0.0, 0.0, 1.0, 0.0),
-            placement: DMat4::IDENTITY,
-        }
-    }
-
-    fn caster<'a>(mesh: &'a Mesh, topology: &'a Topology, at: DVec3, size: f64) -> Caster<'a> {
-        Caster {
-            positions: mesh.positions.iter().map(|p| at + size * *p).collect(),
-            faces: &mesh.faces,
-            topology,
-        }
-    }
-
-    fn area(parts: &Parts) -> f64 {
-        let sides = parts.umbra.iter().map(|[low, high]| *high - *low);
-        sides.map(|sides| sides.x * sides.y).sum()
-    }
-
-    /// The umbra of a square half-way between the floor and lights 2 above it: of all lights, and of none else.
-    #[test]
-    fn a_square_has_its_umbra() {
-        let mesh = shapes::plane(4);
-        let topology = Topology::new(&mesh);
-        assert!(!topology.is_closed);
-        for reach in [0.01, 0.1, 0.2] {
-            let lights = Cube {
-                centre: dvec3(0.0, 0.0, 2.0),
-                reach,
-            };
-            let parts = Parts::new(
-                &floor(),
-                lights,
-                &[caster(&mesh, &topology, DVec3::Z, 0.3)],
-                true,
-            );
-            // The lowest lights, off to one side, have the narrowest shadow there.
-            let (near, far) = (2.0 - reach, 2.0 + reach);
-            let edge = |height: f64| (height * 0.3 - reach) / (height - 1.0);
-            let half = edge(near).min(edge(far));
-            let found = area(&parts);
-            let cells = 2.0 * half - 6.0 / CELLS as f64..2.0 * half;
-            assert!(cells.contains(&found.sqrt()), "{reach}: {found} {half}");
-            for [low, high] in &parts.umbra {
-                assert!(low.abs().max(high.abs()).max_element() <= half, "{reach}");
-            }
-            // All or nothing: the inner quads of the square are beyond the penumbra of a small light.
-            let kept = parts.penumbra[0].len() / 3;
-            assert!(kept >= 24 && kept <= 32, "{kept}");
-        }
-        // The control: lights that reach around the square leave no umbra.
-        let lights = Cube {
-            centre: dvec3(0.0, 0.0, 2.0),
-            reach: 0.7,
-        };
-        let parts = Parts::new(
-            &floor(),
-            lights,
-            &[caster(&mesh, &topology, DVec3::Z, 0.3)],
-            true,
-        );
-        assert_eq!(area(&parts), 0.0);
-        assert_eq!(parts.penumbra[0].len(), 3 * mesh.faces.len());
-    }
-
-    /// A closed mesh is drawn from its front alone, and of that what is near the silhouette.
-    #[test]
-    fn a_sphere_is_drawn_around_its_silhouette() {
-        let mesh = shapes::sphere(24);
-        let topology = Topology::new(&mesh);
-        assert!(topology.is_closed);
-        let lights = |reach| Cube {
-            centre: dvec3(0.1, 0.0, 1.8),
-            reach,
-        };
-        let kept = |reach| {
-            let caster = caster(&mesh, &topology, dvec3(0.0, 0.0, 0.6), 0.3);
-            let parts = Parts::new(&floor(), lights(reach), &[caster], true);
-            assert!(area(&parts) > 0.0);
-            parts.penumbra[0].len() / 3
-        };
-        let (narrow, wide) = (kept(0.005), kept(0.1));
-        let all = mesh.faces.len();
-        assert!(narrow < all / 4, "{narrow} of {all}");
-        assert!(narrow < wide && wide < 3 * all / 4, "{wide} of {all}");
-    }
-
-    #[test]
-    fn what_is_cut_by_a_plane_is_drawn_whole() {
-        let object = Object::new(
-            "ball",
-            shapes::sphere(8),
-            DMat4::IDENTITY,
-            Default::default(),
-        );
-        let topology = Topology::new(&object.mesh);
-        let lights = Cube {
-            centre: dvec3(0.0, 0.0, 2.0),
-            reach: 0.1,
-        };
-        // Among the lights, and between.
-        for (height, is_whole) in [(1.8, true), (1.0, false)] {
-            let caster = caster(&object.mesh, &topology, dvec3(0.0, 0.0, height), 0.3);
-            let parts = Parts::new(&floor(), lights, &[caster], true);
-            let all = parts.penumbra[0].len() == 3 * object.mesh.faces.len();
-            assert_eq!(all && parts.umbra.is_empty(), is_whole, "{height}");
-        }
-    }
-}
+mod tests;

@@ -37,7 +37,7 @@ pub struct Methods {
 }
 
 /// Powers of two, whose weights a binary number has exactly, and others.
-const EQUAL_COUNTS: [usize; 14] = [1, 2, 3, 4, 5, 7, 8, 16, 31, 64, 100, 128, 255, 256];
+const EQUAL_COUNTS: [usize; 10] = [1, 2, 3, 4, 5, 8, 16, 64, 100, 256];
 
 const METHOD_COUNTS: [usize; 2] = [16, 64];
 const METHOD_AMOUNTS: [f64; 6] = [0.009, 0.03, 0.1, 0.2, 0.3, 0.4];

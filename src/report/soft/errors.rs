@@ -55,11 +55,24 @@ fn most() -> usize {
     COUNTS[COUNTS.len() - 1]
 }
 
+/// Every accumulator is drawn with so many lights. What it loses has little to do with where they are: where they are even,
+/// as many as are said to be enough will do.
+fn counts(jitter: &str) -> &'static [usize] {
+    match jitter {
+        "random" => &COUNTS,
+        _ => &COUNTS[..7],
+    }
+}
+
 /// How many lights are drawn.
 pub fn lights(handout: &Handout) -> usize {
     let accumulators = choices(handout, "accumulator").len();
-    let sum: usize = COUNTS.iter().sum();
-    AMOUNTS.len() * JITTERS.len() * (most() + DRAWS * sum + 2 * accumulators * sum)
+    let of_jitter = |jitter: &&str| {
+        let counts = counts(jitter);
+        let sum = |counts: &[usize]| counts.iter().sum::<usize>();
+        DRAWS * sum(&COUNTS) + counts[counts.len() - 1] + 2 * accumulators * sum(counts)
+    };
+    AMOUNTS.len() * JITTERS.iter().map(of_jitter).sum::<usize>()
 }
 
 pub fn measure(run: &mut Run, found: &mut Found) -> Result<()> {
@@ -72,10 +85,11 @@ pub fn measure(run: &mut Run, found: &mut Found) -> Result<()> {
         for jitter in JITTERS {
             run.set(&[&format!("jitter={jitter}")])?;
             found.draws.extend(draws(run, amount, jitter, &penumbrae)?);
-            let Some(means) = means(run, amount)? else {
+            let counts = counts(jitter);
+            let Some(means) = means(run, amount, counts)? else {
                 return Ok(());
             };
-            for (count, mean) in COUNTS.into_iter().zip(&means) {
+            for (count, mean) in counts.iter().copied().zip(&means) {
                 for accumulator in choices(run.subject.handout, "accumulator") {
                     if run.is_stopped() {
                         return Ok(());
@@ -134,12 +148,12 @@ fn draws(
 }
 
 /// The mean of the first renders in f64, for each number of them. A single render is its own mean: RGBA32F gives it back.
-fn means(run: &mut Run, amount: f64) -> Result<Option<Vec<Vec<f64>>>> {
+fn means(run: &mut Run, amount: f64, counts: &[usize]) -> Result<Option<Vec<Vec<f64>>>> {
     run.set(&["accumulator=RGBA32F"])?;
     run.set_lights(1, amount)?;
     let mut means = Vec::new();
     let mut sum: Vec<f64> = Vec::new();
-    for index in 0..most() {
+    for index in 0..counts[counts.len() - 1] {
         if run.is_stopped() {
             return Ok(None);
         }
@@ -148,7 +162,7 @@ fn means(run: &mut Run, amount: f64) -> Result<Option<Vec<Vec<f64>>>> {
         sum.resize(render.as_raw().len(), 0.0);
         let values = sum.iter_mut().zip(render.as_raw());
         values.for_each(|(sum, value)| *sum += f64::from(*value));
-        if COUNTS.contains(&(index + 1)) {
+        if counts.contains(&(index + 1)) {
             let count = (index + 1) as f64;
             means.push(sum.iter().map(|sum| sum / count).collect());
         }

@@ -30,6 +30,9 @@ const HANDOUTS: &str = "RGB32F";
 /// How many lights the handout says show banding in 16 bits.
 const BANDING: usize = 4;
 
+/// The share of values on another level that a person may see as a band.
+const SEEN: f64 = 0.01;
+
 pub fn page(report: &SoftReport) -> Markup {
     let machine = &report.machine;
     let options = report.options.join(" ");
@@ -140,20 +143,25 @@ fn banding(report: &SoftReport) -> Option<String> {
         .iter()
         .max_by(|a, b| a.from_mean.max.total_cmp(&b.from_mean.max))?;
     let said = |errors: &Errors| {
+        let share = words::percent(errors.other_level);
         format!(
-            "{:.2} levels ({} of the values are another level)",
-            errors.from_mean.max,
-            words::percent(errors.other_level)
+            "{:.2} levels at {} ({share})",
+            errors.from_mean.max, errors.count
         )
     };
+    let is_seen = |errors: &&&Errors| errors.other_level > SEEN;
+    let first = of_16_bits.iter().filter(is_seen).map(|e| e.count).min();
+    let first = first.map_or("nowhere".to_owned(), |count| {
+        format!("from {count} lights on")
+    });
     Some(format!(
         "\"Even with GL_RGB16F, one starts to see banding at numJitters ≥ {BANDING}\": the largest error from the mean of the \
-         renders, of which 0.5 is the last rounding to 8 bits, is {} below {BANDING} lights, {} at {BANDING}, and at most {}, \
-         at {}.",
+         renders, and the share of values that are another level, is {}, {}, and at most {}; of it 0.5 is the last rounding to \
+         8 bits. More than {} are another level {first}.",
         said(few),
         said(handouts),
         said(most),
-        most.count,
+        words::percent(SEEN),
     ))
 }
 
@@ -219,7 +227,7 @@ fn error_against_lights(report: &SoftReport) -> Markup {
     else {
         return html! {};
     };
-    let through = (start.0, 1.1 * start.1);
+    let through = (start.0, 1.2 * start.1);
     let guide = |name, slope| Guide {
         name,
         slope,
@@ -273,7 +281,8 @@ fn accumulators(report: &SoftReport) -> Markup {
         p {
             "The picture against the mean of the same renders in f64: the largest error, in levels of 255. 0.5 is what the \
              window's 8 bits cost in the end. Behind it, the share of values that are another level than the mean is rounded \
-             to. Then visibility against the light's integral: root mean square."
+             to. Then visibility against the light's integral: root mean square. Formats that lose the same lie on each other in the \
+             plots."
         }
         @for amount in AMOUNTS { @for jitter in JITTERS {
             @if !of(amount, jitter, HANDOUTS).is_empty() {

@@ -58,13 +58,14 @@ impl Plot<'_> {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let x = range(points().map(|(x, _)| *x));
         let y = range(points().map(|(_, y)| *y));
+        let x_ticks = self.x_ticks.iter().copied().filter(|tick| x.contains(tick));
         let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
         let mut chart = ChartBuilder::on(&root)
             .margin(8)
             .x_label_area_size(44)
             .y_label_area_size(78)
             .build_cartesian_2d(
-                x.clone().log_scale().with_key_points(self.x_ticks.clone()),
+                x.clone().log_scale().with_key_points(x_ticks.collect()),
                 y.clone().log_scale().with_key_points(ticks(&y)),
             )?;
         chart
