@@ -104,18 +104,9 @@ impl Eecs487 {
         }
         self.draw_what_stays(gl, &view, look);
 
-        // Where the wall is seen; and there it is done with.
-        let has_umbra = |wall: &&Wall| selection.has_umbra(wall.number());
-        unsafe { gl.disable(glow::DEPTH_TEST) };
-        for wall in self.shown().filter(has_umbra) {
-            let (reference, bits) = (wall_bit(wall) | DONE, ALL_BITS & !(DONE as u32));
-            unsafe { gl.stencil_func(glow::EQUAL, reference, bits) };
-            self.draw_umbra(gl, selection, &view, wall, look);
-        }
-
+        self.draw_umbrae(gl, selection, &view, look);
         masks.bind(gl);
         unsafe {
-            gl.enable(glow::DEPTH_TEST);
             // From here on the depth buffer is the masks'.
             gl.clear(glow::DEPTH_BUFFER_BIT);
             gl.enable(glow::BLEND);
@@ -165,5 +156,27 @@ impl Eecs487 {
         }
         program.set(gl, "numJitters", self.num_jitters() as i32);
         self.draw_occluders(gl, program, view, look);
+    }
+
+    /// What no light reaches has the shadow's color at once, where the wall is seen; and there it is done with.
+    fn draw_umbrae(&self, gl: &glow::Context, selection: &Selection, view: &View, look: &Look) {
+        let has_umbra = |wall: &&Wall| selection.has_umbra(wall.number());
+        if !self.shown().any(|wall| has_umbra(&wall)) {
+            return;
+        }
+        let program = &self.programs.light;
+        unsafe {
+            gl.disable(glow::DEPTH_TEST);
+            gl.use_program(Some(program.handle));
+        }
+        selection.bind_umbrae(gl);
+        for wall in self.shown().filter(has_umbra) {
+            let (reference, bits) = (wall_bit(wall) | DONE, ALL_BITS & !(DONE as u32));
+            unsafe { gl.stencil_func(glow::EQUAL, reference, bits) };
+            program.set(gl, "modelViewProjection", self.wall_mvp(view, wall));
+            program.set(gl, "lightColor", look.shadow(wall));
+            selection.draw_umbra(gl, wall.number());
+        }
+        unsafe { gl.enable(glow::DEPTH_TEST) };
     }
 }

@@ -172,12 +172,14 @@ impl Selection {
         };
     }
 
+    pub fn bind_umbrae(&self, gl: &glow::Context) {
+        unsafe { gl.bind_vertex_array(Some(self.umbra.vertex_array)) };
+    }
+
+    /// After `bind_umbrae`.
     pub fn draw_umbra(&self, gl: &glow::Context, wall: usize) {
         let range = &self.walls[wall].umbra;
-        unsafe {
-            gl.bind_vertex_array(Some(self.umbra.vertex_array));
-            gl.draw_arrays(glow::TRIANGLES, range.start, range.len() as i32);
-        }
+        unsafe { gl.draw_arrays(glow::TRIANGLES, range.start, range.len() as i32) };
     }
 }
 

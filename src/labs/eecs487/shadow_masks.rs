@@ -19,22 +19,6 @@ use super::shadow_matrix::plane_from;
 const DEPTHS: f64 = (8 * MOST_JITTERS) as f64;
 
 impl Eecs487 {
-    /// What no light reaches has the shadow's color.
-    pub(super) fn draw_umbra(
-        &self,
-        gl: &glow::Context,
-        selection: &Selection,
-        view: &View,
-        wall: &Wall,
-        look: &Look,
-    ) {
-        let program = &self.programs.light;
-        unsafe { gl.use_program(Some(program.handle)) };
-        program.set(gl, "modelViewProjection", self.wall_mvp(view, wall));
-        program.set(gl, "lightColor", look.shadow(wall));
-        selection.draw_umbra(gl, wall.number());
-    }
-
     /// A bit for each light at each pixel that it does not reach. Where shadows of one light overlap, the first one is
     /// enough: the others have the same depth. The next light is nearer.
     pub(super) fn draw_masks(
