@@ -246,7 +246,7 @@ fn error_against_lights(report: &SoftReport) -> Markup {
         p {
             "Visibility (1 lit, 0 in shadow) against the share of the light's cube that each pixel sees, by rays in f64; all \
              pixels that can be in shadow. A point is the root mean square of several draws, each with other lights; the bar \
-             goes from the luckiest of them to the unluckiest. The thin lines fall as the power −1/2, which is chance, and −1."
+             goes from the luckiest of them to the unluckiest. The thin lines fall as the power −1/2, which is chance, and −1; of lights that are spread evenly in a cube that a shadow's edge cuts in two, −2/3 is to be expected."
         }
         div.plot { (PreEscaped(plot.svg())) }
         (legend(&curves))

@@ -55,7 +55,7 @@ fn a_square_has_its_umbra() {
         }
         // All or nothing: the inner quads of the square are beyond the penumbra of a small light.
         let kept = parts.penumbra[0].len() / 3;
-        assert!(kept >= 24 && kept <= 32, "{kept}");
+        assert!((24..=32).contains(&kept), "{kept}");
     }
     // The control: lights that reach around the square leave no umbra.
     let lights = Cube {
