@@ -307,7 +307,16 @@ const WRONG: &[(&str, i32, &[&str])] = &[
     ),
     ("trace cs541 -o trace.txt", 2, &["-o"]),
     ("report cs541", 2, &["--output"]),
-    ("report eecs487 -o r", 2, &["eecs487", "no shadow map"]),
+    (
+        "report eecs487 --sweep num_jitters=2..64 -o r",
+        2,
+        &["eecs487", "no --sweep"],
+    ),
+    (
+        "report eecs487 --set soft_method=fast -o r",
+        2,
+        &["--set soft_method", "eecs487", "of its own"],
+    ),
     ("report cs542 -o r", 2, &["cs542", "did you mean \"cs541\""]),
     (
         "report --set epsilon=0 -o r",

@@ -509,6 +509,7 @@ fn every_setting_is_read() {
         (soft, "num_jitters=5"),
         (soft, "jitter_amount=0.06"),
         (soft, "jitter=low-discrepancy"),
+        (soft, "first_jitter=1"),
         (soft, "soft_method=fast"),
         (soft, "accumulator=S8"),
         (&["scene=ramp"], "accumulator=RGBA8"),

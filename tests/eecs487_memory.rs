@@ -1,8 +1,13 @@
-//! What a setting asks to be made anew takes the old one's place. Alone in its program: others would share its memory.
+//! What a setting asks to be made anew takes the old one's place. Alone in its program, and one
+//! after the other: others would share its memory.
 
 mod common;
 
+use std::sync::Mutex;
+
 use common::Bench;
+
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// Resident memory in KiB.
 fn resident() -> u64 {
@@ -16,6 +21,7 @@ fn resident() -> u64 {
 
 #[test]
 fn changes_leave_nothing_behind() {
+    let _alone = ALONE.lock();
     let settings = ["soft_shadows=on", "soft_method=fast", "num_jitters=1"];
     let mut bench = Bench::new("eecs487", [256, 256], &settings);
     let round = |bench: &mut Bench| {
@@ -46,3 +52,42 @@ fn changes_leave_nothing_behind() {
     println!("{grown} KiB more");
     assert!(grown < 32 * 1024, "{grown} KiB");
 }
+
+/// `+` pressed 300 times, `t` and `T` beyond sense, the light driven into every wall, all of it drawn on the way.
+#[test]
+fn keys_held_down_take_no_more_each_time() {
+    let _alone = ALONE.lock();
+    let settings = ["soft_shadows=on", "soft_method=fast", "num_jitters=1"];
+    let mut bench = Bench::new("eecs487", [64, 64], &settings);
+    let round = |bench: &mut Bench| {
+        for (keys, times) in [("+", 300), ("-", 300), ("T", 40), ("t", 60), ("TT", 1)] {
+            for press in 0..times {
+                bench.press(keys);
+                // Some frames on the way are enough.
+                if press % 30 == 0 {
+                    bench.render();
+                }
+            }
+        }
+        for wall in ["h", "l", "j", "k", "w"] {
+            for _ in 0..4 {
+                bench.press(&wall.repeat(30));
+                bench.render();
+            }
+        }
+    };
+    (0..2).for_each(|_| round(&mut bench));
+    let before = resident();
+    (0..3).for_each(|_| round(&mut bench));
+    let grown = resident().saturating_sub(before);
+    println!("{grown} KiB more");
+    assert!(grown < LEAK / 2, "{grown} KiB");
+
+    // The control: what a program keeps is seen here. Each page is written, so that it is there.
+    let kept: Vec<u8> = (0..LEAK * 1024).map(|i| i as u8).collect();
+    let found = resident().saturating_sub(before);
+    assert!(found > LEAK / 2 && kept[7] == 7, "{found} KiB");
+}
+
+/// In KiB: less than a mask of 32 lights in each of the frames above would come to.
+const LEAK: u64 = 32 * 1024;

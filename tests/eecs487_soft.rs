@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::Bench;
+use common::{Bench, Random};
 use glam::{DVec3, dvec3};
 use image::RgbImage;
 use shadowlab::ground_truth::{Label, Ray, Rays, Truth};
@@ -359,6 +359,47 @@ fn the_fast_method_draws_the_same() {
     assert!(compare(16, 0.1, &["tessellation=4", "jitter=low-discrepancy"]) <= 1);
     for amount in [0.2, 0.4] {
         compare(16, amount, &[]);
+    }
+
+    // Lights that nobody chose: near walls, beside and within the casters.
+    let mut random = Random(7);
+    for round in 0..12 {
+        let key = |keys: &str, most: u32, random: &mut Random| {
+            let at = random.below(keys.len() as u32) as usize;
+            keys[at..=at].repeat(random.below(most) as usize)
+        };
+        let keys = [
+            key("hl", 40, &mut random),
+            key("jk", 60, &mut random),
+            key("ws", 40, &mut random),
+            key("r", 70, &mut random),
+            key("c", 2, &mut random),
+            key("xX", 4, &mut random),
+            key("WS", 4, &mut random),
+        ]
+        .concat();
+        let amount = [0.009, 0.03, 0.1][round % 3];
+        let mut bench = bench(&[]);
+        set(&mut bench, &soft(16, amount, &[]));
+        bench.press(&keys);
+        let handout = bench.picture();
+        bench.set(&["soft_method=fast"]);
+        let levels = largest_beside_seams(&handout, &bench.picture());
+        println!("{keys}, jitter {amount}: {levels} levels");
+        assert!(levels <= 1, "{keys} {amount}: {levels} levels");
+    }
+
+    // What an earlier state left is gone when light, jitter or casters have changed.
+    let settings = ["soft_method=fast", "soft_shadows=on", "jitter_amount=0.02"];
+    let mut kept = bench(&settings);
+    kept.picture();
+    for change in ["h", "r", "a", "c", "x", "t", "tt", "TTT"] {
+        kept.press(change);
+        let fast = kept.picture();
+        kept.set(&["soft_method=handout"]);
+        let levels = largest_beside_seams(&kept.picture(), &fast);
+        assert!(levels <= 1, "{change}: {levels} levels");
+        kept.set(&["soft_method=fast"]);
     }
 
     // The control: another jitter is another picture.

@@ -157,9 +157,9 @@ const CASES: &[Case] = &[
     Case {
         lab: "eecs487",
         settings: &["soft_shadows=on", "soft_method=fast", "num_jitters=40"],
-        // Everything once. The ceiling has nothing before it, and the right wall no teapot: seven shadows of each light
-        // on four walls, and a quad for each of these.
-        passes: &[("soft shadows, fast", 1 + 5 + 2 + 40 * 7 + 4)],
+        // Everything once, and the umbra on two walls. The ceiling has nothing before it, and the right wall no teapot: seven
+        // shadows of each light on four walls, and a quad for each of these.
+        passes: &[("soft shadows, fast", 1 + 5 + 2 + 2 + 40 * 7 + 4)],
     },
 ];
 
@@ -183,7 +183,7 @@ fn sets(line: &Line, now: &HashMap<String, String>) -> Option<(String, String)> 
         "glUseProgram" | "glBindVertexArray" | "glViewport" | "glActiveTexture"
         | "glClearColor" | "glCullFace" | "glDepthFunc" | "glDepthMask" | "glColorMask"
         | "glPolygonMode" | "glDepthRange" | "glStencilFunc" | "glStencilOp" | "glBlendFunc"
-        | "glBlendColor" => name.to_owned(),
+        | "glBlendColor" | "glStencilMask" => name.to_owned(),
         "glBindFramebuffer" | "glBindBuffer" => format!("{name} {}", line.args[0]),
         "glBindTexture" => format!("{name} {:?} {}", now.get("glActiveTexture"), line.args[0]),
         "glEnable" | "glDisable" => return Some((args, name.to_owned())),

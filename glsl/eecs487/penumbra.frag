@@ -1,6 +1,6 @@
 #version 330 core
-// The fast method: a wall where at least one light is shadowed. Blended over the wall as all lights light it in the mean:
-// color + alpha * wall.
+// The fast method: a wall where a light is shadowed, as the stencil buffer has it. Blended over the wall as all lights
+// light it in the mean: color + alpha * wall.
 
 in vec2 place;
 
@@ -33,12 +33,6 @@ bool isShadowed(int light, vec4 bits)
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    bool any = false;
-    for (int layer = 0; layer * 32 < numJitters; layer++)
-        any = any || texelFetch(masks, ivec3(pixel, layer), 0) != vec4(0);
-    if (!any)
-        discard;
-
     vec3 direction = ray * vec3(place, 1);
     vec3 point = eye - direction * (dot(wall, vec4(eye, 1)) / dot(wall.xyz, direction));
     vec2 onWall = abs((wallFromWorld * vec4(point, 1)).xy);

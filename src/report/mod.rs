@@ -17,6 +17,7 @@
 //! | `sheet.rs` | what every page begins with |
 //! | `bench.rs` | a lab that is started with a scene of the report's own |
 //! | `words.rs` | figures and rows as a reader sees them |
+//! | [`soft`] | soft shadows from many lights: a report of its own |
 //! | `machine.rs` | what it was measured on |
 //!
 //! It is a room of its own, above the labs and the contexts, because it needs both and neither needs it: a lab is known
@@ -34,6 +35,7 @@ mod plot;
 mod run;
 pub mod scaling;
 mod sheet;
+pub mod soft;
 mod statistics;
 mod summary;
 mod sweep;

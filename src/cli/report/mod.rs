@@ -2,6 +2,7 @@
 
 mod hard;
 mod scaling;
+mod soft;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, LABS, Settings};
 use shadowlab::progress::Progress;
 use shadowlab::report::{
-    Compared, LabReport, Machine, Plan, Report, Subject, Sweep, measure, steps,
+    self, Compared, LabReport, Machine, Plan, Report, Subject, Sweep, measure, steps,
 };
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
@@ -32,7 +33,7 @@ pub struct ReportCommand {
     /// [default: the lab's own comparisons]
     #[arg(long = "sweep", value_name = "NAME=VALUES")]
     sweeps: Vec<String>,
-    /// How many times each row is timed [default: 30; hard: 6; scaling: 9]
+    /// How many times each row is timed [default: 30; hard: 6; scaling: 9; eecs487: 12]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     rounds: Option<u16>,
     /// scaling: how many triangles the largest scene has [default: 1000000]
@@ -46,7 +47,7 @@ pub struct ReportCommand {
     output: PathBuf,
 }
 
-/// How many times the rows of a lab are timed.
+/// How many times the rows of a lab with shadow maps are timed.
 const ROUNDS: u16 = 30;
 
 /// Names that no lab has.
@@ -65,14 +66,21 @@ impl ReportCommand {
         if self.triangles.is_some() && name != Some(SCALING) {
             return Err(Error::usage("--triangles: expected report scaling"));
         }
-        match name {
-            Some(HARD) => {
+        let mut averages = LABS.iter().copied().filter(|lab| report::soft::is_for(lab));
+        let averages = averages.find(|lab| Some(lab.name) == name);
+        match (name, averages) {
+            (Some(HARD), _) => {
                 self.check_hard()?;
                 self.with_folder(|| self.hard())
             }
-            Some(SCALING) => {
+            (Some(SCALING), _) => {
                 self.check_scaling()?;
                 self.with_folder(|| self.scaling())
+            }
+            (_, Some(handout)) => {
+                self.check_soft(handout)?;
+                let rounds = self.rounds.unwrap_or(soft::ROUNDS).into();
+                self.with_folder(|| self.soft(handout, rounds))
             }
             _ => {
                 let tasks = self.tasks()?;
@@ -159,11 +167,6 @@ impl ReportCommand {
             return with_maps.copied().map(task).collect();
         };
         let handout = labs::find(name).map_err(|error| also(&error, name))?;
-        if handout.comparisons.is_empty() {
-            return Err(Error::usage(format!(
-                "report: {name} has no shadow map to be drawn and looked up, expected a lab that has one"
-            )));
-        }
         if self.changes.sets("redraw") {
             return Err(Error::usage(
                 "--set redraw: every row is measured with the shadow pass drawn and at rest",

@@ -7,39 +7,12 @@ use glam::{DMat3, DMat4, DVec3, DVec4, dvec2};
 use glow::HasContext;
 
 use super::Eecs487;
+use super::look::{Look, set_light};
 use super::occluders::Occluder;
 use super::scene::{LIGHT_COLOR, LIGHT_RADIUS, Wall};
 use super::shadow_matrix::{mult_shadow_mat, plane_from};
 use crate::gl::{self, Program};
-use crate::labs::Show;
 use crate::scene::camera;
-
-/// What of its light a shadow leaves a wall.
-const SHADOW: f64 = 0.3;
-
-/// The colors of a picture, or of the visibility: there everything is white but the shadows.
-pub struct Look {
-    pub clear: DVec3,
-    pub ambient: DVec3,
-    pub diffuse: DVec3,
-    /// All surfaces are white, and shadows black.
-    white: bool,
-}
-
-impl Look {
-    pub fn material(&self, color: DVec3) -> DVec3 {
-        if self.white { DVec3::ONE } else { color }
-    }
-
-    /// The wall's color, darker and unlit.
-    pub fn shadow(&self, wall: &Wall) -> DVec3 {
-        if self.white {
-            DVec3::ZERO
-        } else {
-            SHADOW * wall.color
-        }
-    }
-}
 
 /// A place of the light, and everything that a matrix needs that is made relative to it.
 #[derive(Clone, Copy)]
@@ -51,23 +24,6 @@ pub struct View {
 }
 
 impl Eecs487 {
-    pub(super) fn look(&self, show: Show) -> Look {
-        match show {
-            Show::Picture => Look {
-                clear: self.scene.clear,
-                ambient: self.scene.ambient,
-                diffuse: self.scene.lights[0].color,
-                white: false,
-            },
-            Show::Visibility { .. } => Look {
-                clear: DVec3::ONE,
-                ambient: DVec3::ONE,
-                diffuse: DVec3::ZERO,
-                white: true,
-            },
-        }
-    }
-
     pub(super) fn view(&self, light: DVec3) -> View {
         let camera = self.scene.camera;
         let aspect = f64::from(self.size[0]) / f64::from(self.size[1]);
@@ -287,12 +243,6 @@ impl Eecs487 {
         let corner = 0.5 + 0.5 * (depth.z - depth.x - depth.y);
         per_pixel.extend(corner)
     }
-}
-
-/// The light's and the room's part of the lighting.
-pub fn set_light(gl: &glow::Context, program: &Program, look: &Look) {
-    program.set(gl, "ambient", look.ambient);
-    program.set(gl, "diffuse", look.diffuse);
 }
 
 /// What the wall meshes are cut into, and the mesh on the GPU.

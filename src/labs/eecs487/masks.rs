@@ -35,6 +35,7 @@ pub struct Masks {
 pub struct JittersSent {
     pub kind: &'static str,
     pub amount: f64,
+    pub first: f64,
     pub count: usize,
 }
 

@@ -6,10 +6,10 @@
 //! | 2. Clipped projected shadows | `draw_scene.rs`: `draw_scene`, `populate_stencil` |
 //! | Table 1 | `settings.rs`: `KEYS`, `kbd` |
 //! | 3. Soft shadows | `soft.rs`: `display`, `soft_shadows`; `jitter.rs` |
-//! | 4. Framebuffer object | `fbo_accum.rs`: `fbo_accum_init`, `fbo_accum`, `fbo_accum_return` |
+//! | 4. Framebuffer object | `fbo_accum.rs`: `fbo_accum_init`, `fbo_accum`, `fbo_accum_return`; `accum_buffers.rs` |
 //! | 5. Banding in a limited buffer | the settings `accumulator`, `accumulation` and `scene=ramp`; `s8.rs` |
 //!
-//! `fast.rs` draws the same picture as section 3, the shadows alone again for each light.
+//! `fast.rs` draws the same picture as section 3, for each light again only where it matters which one it is.
 //!
 //! Chosen, because the handout leaves it open: the jitter is uniform in the cube, from a seeded generator; walls are cut
 //! into 16×16 quads; a window that is not square shows more beside the room. Torus and teapot receive no shadows: for
@@ -19,20 +19,26 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
+mod accum_buffers;
 mod draw_scene;
 mod explain;
 mod fast;
 mod fbo_accum;
 pub mod jitter;
+mod look;
 mod masks;
 mod occluders;
 mod programs;
 mod s8;
 mod scene;
+mod selection;
 mod settings;
+mod shadow_masks;
 mod shadow_matrix;
 mod soft;
 mod stages;
+mod topology;
+mod umbra;
 
 use std::path::Path;
 
@@ -48,6 +54,7 @@ use masks::Masks;
 use occluders::Occluder;
 use programs::{Programs, SHADERS};
 use scene::Wall;
+use selection::Selection;
 use settings::{KEYS, SETTINGS};
 
 pub static HANDOUT: Handout = Handout {
@@ -83,6 +90,7 @@ struct Eecs487 {
     /// Made when the first soft shadow asks for them.
     accumulation: Option<FboAccum>,
     masks: Option<Masks>,
+    selection: Option<Selection>,
 }
 
 impl Eecs487 {
@@ -109,6 +117,7 @@ impl Eecs487 {
             programs,
             accumulation: None,
             masks: None,
+            selection: None,
         };
         lab.tessellate(gl)?;
         Ok(lab)

@@ -1,6 +1,6 @@
 //! What casts shadows: the torus and the teapot, and how they turn.
 
-use glam::{DMat4, DVec3, DVec4, dvec3};
+use glam::{DMat4, dvec3};
 
 use crate::Result;
 use crate::gl;
@@ -10,33 +10,15 @@ use crate::scene::{Object, Scene, rotate};
 pub struct Occluder {
     pub object: Object,
     pub buffers: gl::Mesh,
-    /// The corners of the box around the mesh, in object space.
-    bounds: [DVec3; 2],
 }
 
 impl Occluder {
     pub fn of(gl: &glow::Context, objects: Vec<Object>) -> Result<Vec<Self>> {
         let upload = |object: Object| {
             let buffers = gl::Mesh::new(gl, &object.name, &object.mesh)?;
-            let positions = || object.mesh.positions.iter().copied();
-            let bounds = [
-                positions().reduce(DVec3::min).unwrap_or_default(),
-                positions().reduce(DVec3::max).unwrap_or_default(),
-            ];
-            Ok(Self {
-                object,
-                buffers,
-                bounds,
-            })
+            Ok(Self { object, buffers })
         };
         objects.into_iter().map(upload).collect()
-    }
-
-    /// The least value that a plane, in object space, has in the box around the mesh.
-    pub fn least(&self, plane: DVec4) -> f64 {
-        let [low, high] = self.bounds;
-        let normal = plane.truncate();
-        plane.w + (normal * low).min(normal * high).element_sum()
     }
 
     /// Object space to world space after a rotation, in degrees: everything turns about the room's middle, the torus

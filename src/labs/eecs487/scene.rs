@@ -23,6 +23,14 @@ pub struct Wall {
     pub placement: DMat4,
 }
 
+impl Wall {
+    /// Its place in the order of the key `x`.
+    pub fn number(&self) -> usize {
+        let place = WALLS.iter().position(|name| *name == self.name);
+        place.expect("a wall is one of the five")
+    }
+}
+
 pub fn course() -> Result<Scene> {
     let teapot = DMat4::from_translation(dvec3(-0.3, 0.16, 0.1))
         * DMat4::from_scale(DVec3::splat(0.5 * 0.16))

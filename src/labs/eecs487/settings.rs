@@ -99,6 +99,16 @@ pub const SETTINGS: &[Setting] = &[
         help: "how the lights fill the cube around the light: by a seeded generator, or evenly",
     },
     Setting {
+        name: "first_jitter",
+        kind: Kind::Number {
+            default: 0.0,
+            least: 0.0,
+            most: 1e6,
+            whole: true,
+        },
+        help: "the number of the first of these lights; from another one on, they are others",
+    },
+    Setting {
         name: "soft_method",
         kind: Kind::Choice(&["handout", "fast"]),
         help: "draw everything for each light, or the shadows alone",

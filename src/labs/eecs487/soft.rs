@@ -7,9 +7,9 @@ use glam::DVec3;
 use glow::HasContext;
 
 use super::Eecs487;
-use super::draw_scene::Look;
 use super::fbo_accum::FboAccum;
 use super::jitter::jitter;
+use super::look::Look;
 use crate::labs::Show;
 use crate::{Error, Result, gl};
 
@@ -106,7 +106,8 @@ impl Eecs487 {
 
     pub(super) fn jitter(&self, index: usize) -> DVec3 {
         let amount = self.settings.number("jitter_amount");
-        amount * jitter(self.settings.choice("jitter"), index)
+        let first = self.settings.number("first_jitter") as usize;
+        amount * jitter(self.settings.choice("jitter"), first + index)
     }
 
     /// Once, and again for another size or another format.
