@@ -9,7 +9,9 @@
 //! | where the light is, and along which axes it looks | `space.rs` |
 //! | what a ray is tested against: three planes through the edges, and the triangle's own | `caster.rs` |
 //! | which triangles can cast onto something | `builder.rs` |
+//! | how cells lie over the light's view, and where in it a triangle is seen | `layout.rs` |
 //! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `polygon.rs` |
+//! | the planes as the shader goes through them | `node.rs` |
 //! | the buffer textures and the uniforms | `gpu.rs` |
 //! | the test | `glsl/shadow_tests/exact.frag` |
 //!
@@ -29,13 +31,17 @@ mod builder;
 mod caster;
 mod gpu;
 mod grid;
+mod layout;
+mod node;
 mod polygon;
 mod space;
 mod topology;
 
 pub use builder::{Builder, LightBuffer, Placed};
 pub use gpu::{ExactTest, LIGHT_BUFFER};
-pub use grid::{Cell, Layout};
+pub use grid::Cell;
+pub use layout::Layout;
+pub use node::{DARK, FACES_LIGHT, Node};
 pub use space::{LightSpace, Rays};
 
 /// The file of [`super::SHADERS`].
