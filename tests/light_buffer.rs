@@ -74,13 +74,10 @@ fn test(light_buffer: &LightBuffer, position_lcs: Vec3, triangle: u32) -> (bool,
     while at < cell.end {
         let [x, y, z, on] = light_buffer.nodes[at as usize];
         let product = Vec3::from_array([x, y, z].map(f32::from_bits)).dot(ray);
-        let in_list = at >= cell.first;
-        let passed = product >= if in_list { reach } else { 0.0 } && on != (own | FACES_LIGHT);
-        if in_list {
-            tests += 1;
-            next = at + 1;
-        }
-        at = match passed {
+        let least = if at < cell.first { 0.0 } else { reach };
+        tests += usize::from(at >= cell.first);
+        next = next.max(at + 1);
+        at = match product >= least && on != (own | FACES_LIGHT) {
             _ if on == own => DARK,
             true => on & !FACES_LIGHT,
             false => next,

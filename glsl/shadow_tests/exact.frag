@@ -37,7 +37,8 @@ bool is_in_shadow(int face, vec2 place, float nearness, vec3 ray, float reach, i
     // smoothed.
     int own = 3*triangle;
     // One plane in each round, and not one caster: pixels that are drawn together wait for each other, and most of them
-    // need no round at all. For the same reason a round is short, and fetches once.
+    // need no round at all. For the same reason a round is short, and fetches once. Where a ray passes an edge on the
+    // wrong side, the list goes on; lists are behind all edges.
     int first = int(content.z);
     int end = int(content.w);
     int at = lit || dark ? end : first;
@@ -45,9 +46,8 @@ bool is_in_shadow(int face, vec2 place, float nearness, vec3 ray, float reach, i
     while (at < end) {
         ivec4 node = texelFetch(light_buffer_nodes, at);
         float product = dot(intBitsToFloat(node.xyz), ray);
-        bool in_list = at >= first;
-        bool passed = product >= (in_list ? reach : 0) && node.w != (own | FACES_LIGHT);
-        next = in_list ? at + 1 : next;
+        bool passed = product >= (at < first ? 0 : reach) && node.w != (own | FACES_LIGHT);
+        next = max(next, at + 1);
         at = node.w == own ? DARK : passed ? node.w & ~FACES_LIGHT : next;
     }
     return dark || at == DARK;

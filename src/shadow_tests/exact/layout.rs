@@ -62,11 +62,8 @@ impl Layout {
     pub fn around(rays: Rays, points: &[DVec3], seen: &[Seen], casters: &[Shape]) -> Self {
         let [least_side, most_side] = SIDES;
         let side = (CELLS_FOR_A_CASTER * casters.len() as f64).sqrt().ceil();
-        let side = match rays {
-            // All casters may lie on one of the six faces.
-            Rays::Point => side.clamp(least_side, most_side / 2.0),
-            Rays::Spot | Rays::Parallel => side.clamp(least_side, most_side),
-        };
+        // Of a point light as many on each face: all casters may lie on one.
+        let side = side.clamp(least_side, most_side);
         let [least, most] = match rays {
             Rays::Point => VIEW,
             Rays::Spot | Rays::Parallel => {
