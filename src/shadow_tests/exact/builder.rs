@@ -5,8 +5,9 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
+use super::band::{Cell, Content};
 use super::caster::Caster;
-use super::grid::{Cell, Content, Filling};
+use super::grid::Filling;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
 use super::node::{self, Node};
 use super::space::{LightSpace, Rays};

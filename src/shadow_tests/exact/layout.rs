@@ -10,7 +10,8 @@ use super::space::Rays;
 /// How many cells there are for each caster: fewer make longer lists, more take longer to fill. Between 4 and 16 the frames
 /// of the labs' scenes differ by less than a tenth.
 const CELLS_FOR_A_CASTER: f64 = 8.0;
-/// The least and the most cells on each side of the grid: to fill fewer costs nothing, more are worth no memory.
+/// The least and the most cells on each side of the grid: to fill fewer costs nothing, and with 118,000 casters to fill
+/// 512 a side takes a third longer than 256.
 const SIDES: [f64; 2] = [64.0, 256.0];
 
 /// What the light's view has at most: the beam, or a face.
