@@ -185,9 +185,8 @@ impl Found<'_> {
             .zip(self.edges[3 * numbers.start..3 * numbers.end].par_chunks_mut(3))
             .zip(numbers.into_par_iter());
         let casts = faces.map(|((((face, closed), caster), edges), number)| {
-            let ids = face.map(|i| i + first_point as u32);
-            let corners = ids.map(|i| points[i as usize]);
-            let found = Caster::new(rays, ids, corners, *closed);
+            let corners = face.map(|i| points[first_point + i as usize]);
+            let found = Caster::new(rays, corners, *closed);
             let Some(found) = found.filter(|found| casts_on_something(rays, found, receivers))
             else {
                 return Cast::Nothing;

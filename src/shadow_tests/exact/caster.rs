@@ -15,8 +15,6 @@ const TOLERANCE: f64 = 1e-6;
 /// A triangle that casts, in the light's space.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Caster {
-    /// Its corners, as numbers of points.
-    pub points: [u32; 3],
     pub faces_light: bool,
     /// plane · through(point) is 1 on the triangle's plane, and more behind it. Where rays are parallel it is the plane's
     /// z above a point.
@@ -39,7 +37,7 @@ impl Caster {
     /// None where the light sees the triangle edge-on, or it has no area, or it is a closed surface's side that faces the
     /// light: between its two ends a ray that meets a closed surface leaves it again, through a face that faces away. Of
     /// an open surface every face casts, whichever way it is turned.
-    pub fn new(rays: Rays, points: [u32; 3], corners: [DVec3; 3], closed: bool) -> Option<Self> {
+    pub fn new(rays: Rays, corners: [DVec3; 3], closed: bool) -> Option<Self> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let along = along(rays, normal, a);
@@ -74,7 +72,6 @@ impl Caster {
             Rays::Parallel => plane + DVec3::new(0.0, 0.0, tolerance),
         };
         Some(Self {
-            points,
             faces_light,
             plane,
             shifted,
