@@ -5,8 +5,7 @@
 const LIGHT_BUFFER: &str = "\
 struct LightBuffer {
     usamplerBuffer cells;
-    usamplerBuffer lists;
-    samplerBuffer casters;
+    isamplerBuffer nodes;
     vec4 rectangle;
     int side;
 };

@@ -6,11 +6,11 @@ mod hard;
 
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+use glam::{Vec2, Vec3, Vec3Swizzles};
 use hard::{Case, cases};
 use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
 use shadowlab::scene::Scene;
-use shadowlab::shadow_tests::exact::{Builder, LightBuffer, Placed, Rays};
+use shadowlab::shadow_tests::exact::{Builder, DARK, FACES_LIGHT, LightBuffer, Placed, Rays};
 
 const SIZE: [u32; 2] = [320, 240];
 
@@ -69,23 +69,26 @@ fn test(light_buffer: &LightBuffer, position_lcs: Vec3, triangle: u32) -> (bool,
     if nearness < cell.dark_below {
         return (true, 0);
     }
-    let list = cell.first as usize..(cell.first + cell.count) as usize;
-    for (tests, index) in (1..).zip(list) {
-        let caster = 4 * light_buffer.lists[index] as usize;
-        let plane = |i: usize| Vec4::from_array(light_buffer.casters[caster + i]);
-        let number = plane(0).w as i64;
-        if number.unsigned_abs() == u64::from(triangle) + 1 {
-            if number < 0 {
-                return (true, tests);
-            }
-            continue;
-        }
-        let product = |i: usize| plane(i).xyz().dot(ray);
-        if product(0) > reach && (1..4).all(|i| product(i) >= 0.0) {
-            return (true, tests);
-        }
+    let own = 3 * triangle;
+    let (mut at, mut next, mut tests) = (cell.first, cell.first, 0);
+    while at < cell.end {
+        let [x, y, z, on] = light_buffer.nodes[at as usize];
+        let product = Vec3::from_array([x, y, z].map(f32::from_bits)).dot(ray);
+        let least = if at < cell.first { 0.0 } else { reach };
+        tests += usize::from(at >= cell.first);
+        next = next.max(at + 1);
+        at = match product >= least && on != (own | FACES_LIGHT) {
+            _ if on == own => DARK,
+            true => on & !FACES_LIGHT,
+            false => next,
+        };
     }
-    (false, cell.count as usize)
+    (at == DARK, tests)
+}
+
+/// Where the lists are.
+fn lists(light_buffer: &LightBuffer) -> std::ops::Range<usize> {
+    3 * light_buffer.triangle_count as usize..light_buffer.nodes.len()
 }
 
 /// How a light buffer does on a scene.
@@ -140,33 +143,20 @@ fn no_pixel_is_wrong_and_few_triangles_are_asked() {
         let light_buffer = builder.build(&scene.lights[0], &placed(&scene));
         let score = score(&scene, &truth, light_buffer);
         println!(
-            "{name:30} {:7} valid {:6} dark {:4} ambiguous, wrong {} {}, tests {:.3}, casters {}, entries {}",
+            "{name:30} {:7} valid {:6} dark {:4} ambiguous, wrong {} {}, tests {:.3}, entries {}",
             score.valid,
             score.shadowed,
             score.ambiguous,
             score.false_shadow,
             score.false_light,
             score.tests,
-            light_buffer.casters.len() / 4,
-            light_buffer.lists.len(),
+            lists(light_buffer).len(),
         );
         if score.false_shadow + score.false_light > 0 || score.tests > most_tests {
             failures.push(format!("{name}: {score:?}"));
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
-}
-
-fn copy(built: &LightBuffer) -> LightBuffer {
-    LightBuffer {
-        space: built.space,
-        layout: built.layout,
-        cells: built.cells.clone(),
-        lists: built.lists.clone(),
-        casters: built.casters.clone(),
-        first_triangles: built.first_triangles.clone(),
-        triangle_count: built.triangle_count,
-    }
 }
 
 /// The controls, on a scene with solids and one with sheets: a light buffer that is wrong in one way scores badly.
@@ -178,7 +168,7 @@ fn a_wrong_light_buffer_scores_badly() {
         let truth = TruthRays::new(&scene, 0).truth(SIZE);
         let mut builder = Builder::default();
         let built = builder.build(&scene.lights[0], &placed(&edit(&scene)));
-        let mut spoilt = copy(built);
+        let mut spoilt = built.clone();
         spoil(&mut spoilt);
         let score = score(&scene, &truth, &spoilt);
         println!("{name}: {score:?}");
@@ -196,8 +186,9 @@ fn a_wrong_light_buffer_scores_badly() {
     };
     let move_planes = |by: f32| {
         move |buffer: &mut LightBuffer| {
-            for [x, y, z, _] in buffer.casters.iter_mut().step_by(4) {
-                (*x, *y, *z) = (*x * by, *y * by, *z * by);
+            let lists = lists(buffer);
+            for [plane @ .., _] in &mut buffer.nodes[lists] {
+                *plane = plane.map(|bits| (f32::from_bits(bits) * by).to_bits());
             }
         }
     };
@@ -208,7 +199,10 @@ fn a_wrong_light_buffer_scores_badly() {
         let [shadow, _] = wrong(name, &turned, &|_| ());
         assert!(shadow > 1000, "{name}: {shadow}");
         // The lists of other cells.
-        let [_, light] = wrong(name, &as_it_is, &|buffer| buffer.lists.rotate_left(1000));
+        let [_, light] = wrong(name, &as_it_is, &|buffer| {
+            let lists = lists(buffer);
+            buffer.nodes[lists].rotate_left(1000);
+        });
         assert!(light > 20, "{name}: {light}");
     }
     // A tolerance on the wrong side: neighbours on an open surface shadow each other.
@@ -228,7 +222,7 @@ fn what_is_known_of_cells_saves_most_tests() {
     let truth = TruthRays::new(&scene, 0).truth(SIZE);
     let mut builder = Builder::default();
     let built = builder.build(&scene.lights[0], &placed(&scene));
-    let mut blind = copy(built);
+    let mut blind = built.clone();
     for cell in &mut blind.cells {
         cell.lit_above = f32::INFINITY;
         cell.dark_below = f32::NEG_INFINITY;

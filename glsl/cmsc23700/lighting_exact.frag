@@ -37,8 +37,7 @@ out vec4 C_out;
 // Which triangles each ray of a light can meet; it and its test are in shadow_tests/exact.frag.
 struct LightBuffer {
     usamplerBuffer cells;
-    usamplerBuffer lists;
-    samplerBuffer casters;
+    isamplerBuffer nodes;
     vec4 rectangle;
     int side;
 };

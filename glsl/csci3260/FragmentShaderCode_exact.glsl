@@ -28,8 +28,7 @@ out vec4 color;
 // Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
 struct LightBuffer {
     usamplerBuffer cells;
-    usamplerBuffer lists;
-    samplerBuffer casters;
+    isamplerBuffer nodes;
     vec4 rectangle;
     int side;
 };

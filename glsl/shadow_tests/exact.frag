@@ -4,17 +4,22 @@
 
 struct LightBuffer {
     // For each cell: nearer than .x all is lit, farther than .y all is dark (both as nearness, in the bits of a float);
-    // its list of casters begins at .z and has .w entries.
+    // its list is the nodes from .z to .w.
     usamplerBuffer cells;
-    usamplerBuffer lists;
-    // For each caster four planes as a ray is tested against them: its own, and those through the light and each of its
-    // edges. With the first one comes the triangle's number, from 1, negative where it faces away from the light.
-    samplerBuffer casters;
+    // A node is a plane, in the bits of floats, with the node where to go on if the ray is on its positive side. First
+    // three for each triangle: the planes through the light and its edges. Then the lists: the planes of casters, which
+    // lead to their edges.
+    isamplerBuffer nodes;
     // What the cells lie over: its corner, and how many cells there are to a unit, across and up.
     vec4 rectangle;
     // Cells on each side.
     int side;
 };
+
+// Where the last edge leads to: behind all nodes.
+const int DARK = 0x7fffffff;
+// In a list, beside where to go on: the caster faces the light.
+const int FACES_LIGHT = int(0x80000000);
 
 // `ray` leads from the light through the point; on a caster's plane its product with the plane is `reach`. Nearness is
 // 1/depth or, where rays are parallel, z.
@@ -30,25 +35,24 @@ bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness
     bool lit = outside || nearness > uintBitsToFloat(content.x);
     bool dark = !lit && nearness < uintBitsToFloat(content.y);
 
+    // A point is not behind its own triangle; but if that faces away, it is in its own shadow, however its normals are
+    // smoothed.
+    int own = 3*triangle;
     // One plane in each round, and not one caster: pixels that are drawn together wait for each other, and most of them
-    // need no round at all.
-    int entry = int(content.z);
-    int end = lit || dark ? entry : entry + int(content.w);
-    int step = 0;
-    while (entry < end) {
-        int caster = int(texelFetch(light_buffer.lists, entry).x);
-        vec4 plane = texelFetch(light_buffer.casters, 4*caster + step);
-        float product = dot(plane.xyz, ray);
-        bool passed = step == 0 ? product > reach : product >= 0;
-        // A point is not behind its own triangle; but if that faces away, it is in its own shadow, however its normals
-        // are smoothed.
-        int number = int(plane.w);
-        bool own = abs(number) == triangle + 1;
-        dark = own ? number < 0 : passed && step == 3;
-        step = passed && !own ? step + 1 : 0;
-        entry = dark ? end : step > 0 ? entry : entry + 1;
+    // need no round at all. For the same reason a round is short, and fetches once. Where a ray passes an edge on the
+    // wrong side, the list goes on; lists are behind all edges.
+    int first = int(content.z);
+    int end = int(content.w);
+    int at = lit || dark ? end : first;
+    int next = first;
+    while (at < end) {
+        ivec4 node = texelFetch(light_buffer.nodes, at);
+        float product = dot(intBitsToFloat(node.xyz), ray);
+        bool passed = product >= (at < first ? 0 : reach) && node.w != (own | FACES_LIGHT);
+        next = max(next, at + 1);
+        at = node.w == own ? DARK : passed ? node.w & ~FACES_LIGHT : next;
     }
-    return dark;
+    return dark || at == DARK;
 }
 
 // A light that shines from the origin: in a beam along -z, or in all directions, with six faces of cells around it.

@@ -176,7 +176,7 @@ fn texel_bytes(internal_format: u32) -> Result<u64> {
         | glow::DEPTH_COMPONENT32F
         | glow::DEPTH24_STENCIL8 => 4,
         glow::RGB16F | glow::RGBA16F | glow::RG32F | glow::RG32UI | glow::DEPTH32F_STENCIL8 => 8,
-        glow::RGB32F | glow::RGBA32F | glow::RGB32UI | glow::RGBA32UI => 16,
+        glow::RGB32F | glow::RGBA32F | glow::RGB32UI | glow::RGBA32UI | glow::RGBA32I => 16,
         other => {
             return Err(Error::gl(format!(
                 "the memory of a texture of format {other:#06X} is not counted: expected one of GL 3.3's common ones"

@@ -16,14 +16,13 @@ use crate::scene::{Object, Scene};
 use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, Placed};
 use crate::{Error, Result};
 
-/// Behind the two shadow maps' texture units come three for each light.
+/// Behind the two shadow maps' texture units come two for each light.
 const BINDINGS: [Binding; 2] = [
     Binding {
         pass: "the directional light's buffer",
         uniforms: [
             "directionalBuffer.cells",
-            "directionalBuffer.lists",
-            "directionalBuffer.casters",
+            "directionalBuffer.nodes",
             "directionalBuffer.rectangle",
             "directionalBuffer.side",
         ],
@@ -33,12 +32,11 @@ const BINDINGS: [Binding; 2] = [
         pass: "the spotlight's buffer",
         uniforms: [
             "spotBuffer.cells",
-            "spotBuffer.lists",
-            "spotBuffer.casters",
+            "spotBuffer.nodes",
             "spotBuffer.rectangle",
             "spotBuffer.side",
         ],
-        first_unit: 5,
+        first_unit: 4,
     },
 ];
 

@@ -5,14 +5,17 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
-use super::caster::{Caster, faces_light};
-use super::grid::{Cell, Filling, Group, Layout};
+use super::band::{Cell, Content};
+use super::caster::Caster;
+use super::grid::Filling;
+use super::layout::{BOUNDARY, Layout, Seen, Shape};
+use super::node::{self, Node};
 use super::space::{LightSpace, Rays};
-use super::topology::{FaceEdge, Topology};
+use super::topology::{Topology, Use};
 use crate::scene::{Light, Mesh};
 
 /// How many triangles or points are worth a thread.
-const WORTH_A_THREAD: usize = 1024;
+pub const WORTH_A_THREAD: usize = 1024;
 
 /// A mesh in the scene. Its triangles are numbered as they are drawn.
 #[derive(Clone)]
@@ -32,15 +35,14 @@ impl PartialEq for Placed {
 }
 
 /// The light buffer as the shader reads it.
+#[derive(Clone)]
 pub struct LightBuffer {
     pub space: LightSpace,
     pub layout: Layout,
     pub cells: Vec<Cell>,
-    /// The cells' lists, one behind the other.
-    pub lists: Vec<u32>,
-    /// Four vectors for each caster: its plane with its number, from 1 and negative where it faces away from the light,
-    /// and the planes of its edges.
-    pub casters: Vec<[f32; 4]>,
+    /// Three for the edges of each triangle, in the order of the triangles' numbers: those of casters are filled in. Then
+    /// the cells' lists, one behind the other.
+    pub nodes: Vec<Node>,
     /// The number of each mesh's first triangle.
     pub first_triangles: Vec<u32>,
     pub triangle_count: u32,
@@ -51,9 +53,11 @@ pub struct LightBuffer {
 #[derive(Default)]
 pub struct Builder {
     topologies: Vec<(Arc<Mesh>, Arc<Topology>)>,
+    points: Vec<DVec3>,
+    seen: Vec<Seen>,
+    /// By the triangles' numbers, where they cast.
     casters: Vec<Caster>,
-    /// The number of each caster in the scene.
-    numbers: Vec<u32>,
+    shapes: Vec<Shape>,
     filling: Filling,
     spare: Option<LightBuffer>,
 }
@@ -67,14 +71,26 @@ impl Builder {
             .flat_map(|(placed, topology)| box_corners(placed.model, topology.bounds))
             .collect();
         let space = LightSpace::new(light, &corners);
-        self.casters.clear();
-        self.numbers.clear();
+        let spare = self.spare.take();
+        let spare = spare.map(|spare| (spare.cells, spare.nodes));
+        let (mut cells, mut nodes) = spare.unwrap_or_default();
+        let faces = topologies.iter().map(|topology| topology.faces.len());
+        let triangle_count: usize = faces.sum();
+        self.casters.resize(triangle_count, Caster::default());
+        // What the last build left is written over, and not cleared.
+        nodes.resize(nodes.len().max(3 * triangle_count), Node::default());
+        self.points.clear();
+        self.seen.clear();
+        self.shapes.clear();
         let mut found = Found {
             rays: space.rays,
             receivers: corners.iter().map(|p| space.from_world(*p)).collect(),
+            points: &mut self.points,
+            seen: &mut self.seen,
             casters: &mut self.casters,
-            numbers: &mut self.numbers,
-            groups: Vec::new(),
+            edges: &mut nodes,
+            shapes: &mut self.shapes,
+            groups: 0,
         };
         let mut first_triangles = Vec::new();
         let mut first = 0;
@@ -86,25 +102,28 @@ impl Builder {
             first += topology.faces.len() as u32;
         }
 
-        let groups = found.groups;
-        let layout = Layout::around(space.rays, &self.casters);
-        let spare = self.spare.take();
-        let (mut cells, mut lists, mut vectors) = spare.map_or_else(Default::default, |spare| {
-            (spare.cells, spare.lists, spare.casters)
-        });
-        self.filling.fill(layout, &self.casters, &groups);
-        self.filling.write(&mut cells, &mut lists);
-        let casters = self.casters.iter().zip(&self.numbers);
-        vectors.clear();
-        vectors.extend(
-            casters.flat_map(|(caster, number)| caster_vectors(space.rays, caster, *number)),
-        );
+        let layout = Layout::around(space.rays, &self.points, &self.seen, &self.shapes);
+        let content = Content {
+            layout,
+            shapes: &self.shapes,
+            points: &self.points,
+            seen: &self.seen,
+            casters: &self.casters,
+        };
+        let listed = self.filling.fill(content);
+        cells.resize(layout.cell_count(), Cell::default());
+        nodes.resize(3 * triangle_count + listed, Node::default());
+        let (_, lists) = nodes.split_at_mut(3 * triangle_count);
+        let casters = &self.casters;
+        self.filling
+            .write(layout.side, &mut cells, lists, 3 * first, |number| {
+                node::of_plane(&casters[number as usize], number)
+            });
         self.spare.insert(LightBuffer {
             space,
             layout,
             cells,
-            lists,
-            casters: vectors,
+            nodes,
             first_triangles,
             triangle_count: first,
         })
@@ -124,91 +143,126 @@ impl Builder {
 }
 
 /// What a triangle does.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Cast {
     Nothing,
     FacingAway,
     FacingLight,
 }
 
+const SIDES: [Cast; 2] = [Cast::FacingAway, Cast::FacingLight];
+
 /// What the scene's triangles are to the light.
 struct Found<'a> {
     rays: Rays,
     /// The corners of the boxes around everything that shadows can fall on.
     receivers: Vec<DVec3>,
-    casters: &'a mut Vec<Caster>,
-    numbers: &'a mut Vec<u32>,
-    groups: Vec<Group>,
+    points: &'a mut Vec<DVec3>,
+    seen: &'a mut Vec<Seen>,
+    casters: &'a mut [Caster],
+    edges: &'a mut [Node],
+    shapes: &'a mut Vec<Shape>,
+    groups: u32,
 }
 
 impl Found<'_> {
     fn add(&mut self, to_light: DMat4, topology: &Topology, first: u32) {
+        let rays = self.rays;
+        let first_point = self.points.len();
         let points = topology.points.par_iter().with_min_len(WORTH_A_THREAD);
-        let points: Vec<DVec3> = points.map(|p| to_light.transform_point3(*p)).collect();
-        let caster = |face: usize| {
-            let corners = topology.faces[face].map(|i| points[i as usize]);
-            Caster::new(self.rays, corners, topology.closed[face])
-        };
-        // Between its two ends a ray that meets a closed surface leaves it again, through a face that faces away from
-        // the light. Of an open surface every face casts, whichever way it is turned.
-        let cast = |face: usize| {
-            let corners = topology.faces[face].map(|i| points[i as usize]);
-            if topology.closed[face] && faces_light(self.rays, corners) {
-                return Cast::Nothing;
-            }
-            match caster(face).filter(|caster| self.casts_on_something(caster)) {
-                None => Cast::Nothing,
-                Some(caster) if caster.faces_light => Cast::FacingLight,
-                Some(_) => Cast::FacingAway,
-            }
-        };
-        let casts = (0..topology.faces.len()).into_par_iter();
-        let casts: Vec<Cast> = casts.with_min_len(WORTH_A_THREAD).map(cast).collect();
+        let points = points.map(|p| to_light.transform_point3(*p));
+        self.points.par_extend(points);
+        let points = self.points[first_point..].par_iter();
+        let seen = points.with_min_len(WORTH_A_THREAD);
+        self.seen.par_extend(seen.map(|p| Seen::new(rays, *p)));
 
-        let first_caster = self.casters.len();
-        let mut chosen = Vec::new();
-        let mut uses = vec![0; topology.edges.len()];
-        for component in &topology.components {
-            for wanted in [Cast::FacingAway, Cast::FacingLight] {
-                let start = chosen.len();
-                let of_group = component.iter().map(|face| *face as usize);
-                chosen.extend(of_group.filter(|face| casts[*face] == wanted));
-                let group = &chosen[start..];
-                for FaceEdge { edge, direction } in
-                    group.iter().flat_map(|face| topology.face_edges[*face])
-                {
-                    uses[edge as usize] += direction;
-                }
-                let mut boundary = Vec::new();
-                for FaceEdge { edge, .. } in
-                    group.iter().flat_map(|face| topology.face_edges[*face])
-                {
-                    if std::mem::take(&mut uses[edge as usize]) != 0 {
-                        let ends = topology.edges[edge as usize];
-                        boundary.push(ends.map(|i| points[i as usize]));
+        let (receivers, points) = (&self.receivers, &self.points);
+        let numbers = first as usize..first as usize + topology.faces.len();
+        let faces = topology.faces.par_iter().with_min_len(WORTH_A_THREAD);
+        let faces = faces
+            .zip(&topology.closed)
+            .zip(&mut self.casters[numbers.clone()])
+            .zip(self.edges[3 * numbers.start..3 * numbers.end].par_chunks_mut(3))
+            .zip(numbers.into_par_iter());
+        let casts = faces.map(|((((face, closed), caster), edges), number)| {
+            let corners = face.map(|i| points[first_point + i as usize]);
+            let found = Caster::new(rays, corners, *closed);
+            let Some(found) = found.filter(|found| casts_on_something(rays, found, receivers))
+            else {
+                return Cast::Nothing;
+            };
+            *caster = found;
+            let planes = found.edges(rays, corners);
+            edges.copy_from_slice(&node::of_edges(planes, number as u32));
+            match found.faces_light {
+                true => Cast::FacingLight,
+                false => Cast::FacingAway,
+            }
+        });
+        let casts: Vec<Cast> = casts.collect();
+        self.add_shapes(topology, &casts, first_point as u32, first);
+    }
+
+    /// The casters of each component that face one way, behind their boundary: the edges that they do not use as often in
+    /// one direction as in the other.
+    fn add_shapes(&mut self, topology: &Topology, casts: &[Cast], first_point: u32, first: u32) {
+        let edges = (0..topology.edges.len()).into_par_iter();
+        let boundary = edges
+            .with_min_len(WORTH_A_THREAD)
+            .fold(Vec::new, |mut found, edge| {
+                let uses = topology.uses(edge);
+                let mut balances = [0; 2];
+                for Use { face, direction } in uses {
+                    match casts[*face as usize] {
+                        Cast::Nothing => {}
+                        Cast::FacingAway => balances[0] += direction,
+                        Cast::FacingLight => balances[1] += direction,
                     }
                 }
-                if !group.is_empty() {
-                    let range = [start, chosen.len()].map(|n| (first_caster + n) as u32);
-                    self.groups.push(Group {
-                        casters: range[0]..range[1],
-                        boundary,
+                for (side, balance) in SIDES.into_iter().zip(balances) {
+                    if balance != 0 {
+                        let [a, b] = topology.edges[edge].map(|i| i + first_point);
+                        let component = topology.component_of[uses[0].face as usize];
+                        found.push((component, side, [a, b, b]));
+                    }
+                }
+                found
+            });
+        let mut boundary = boundary.collect::<Vec<_>>().concat();
+        boundary.sort_unstable_by_key(|(component, side, _)| (*component, *side));
+        let mut boundary = boundary.into_iter().peekable();
+
+        for (component, number) in topology.components.iter().zip(0..) {
+            for side in SIDES {
+                let group = self.groups;
+                let of_group =
+                    |(of, its_side, _): &(u32, Cast, _)| (*of, *its_side) == (number, side);
+                while let Some((_, _, points)) = boundary.next_if(of_group) {
+                    self.shapes.push(Shape {
+                        points,
+                        group,
+                        caster: BOUNDARY,
                     });
                 }
+                let chosen = component
+                    .iter()
+                    .filter(|face| casts[**face as usize] == side);
+                let shapes = chosen.map(|face| Shape {
+                    points: topology.faces[*face as usize].map(|i| i + first_point),
+                    group,
+                    caster: first + *face,
+                });
+                self.shapes.extend(shapes);
+                self.groups += 1;
             }
         }
-        let casters = chosen.par_iter().with_min_len(WORTH_A_THREAD);
-        let casters = casters.map(|face| caster(*face).expect("it casts"));
-        self.casters.par_extend(casters);
-        let numbers = chosen.iter().map(|face| first + *face as u32);
-        self.numbers.extend(numbers);
     }
+}
 
-    /// Whether anything of the scene can be behind a triangle: a floor under everything casts on nothing.
-    fn casts_on_something(&self, caster: &Caster) -> bool {
-        let mut receivers = self.receivers.iter();
-        receivers.any(|point| caster.is_before(self.rays, *point))
-    }
+/// Whether anything of the scene can be behind a triangle: a floor under everything casts on nothing.
+fn casts_on_something(rays: Rays, caster: &Caster, receivers: &[DVec3]) -> bool {
+    let mut receivers = receivers.iter();
+    receivers.any(|point| caster.is_before(rays, *point))
 }
 
 /// The corners of a box in object space, in world space.
@@ -222,15 +276,4 @@ fn box_corners(model: DMat4, [least, most]: [DVec3; 2]) -> Vec<DVec3> {
         model.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
     };
     (0..8).map(corner).collect()
-}
-
-fn caster_vectors(rays: Rays, caster: &Caster, number: u32) -> [[f32; 4]; 4] {
-    let vector = |v: DVec3, w: f32| {
-        let [x, y, z] = v.as_vec3().to_array();
-        [x, y, z, w]
-    };
-    let [ab, bc, ca] = caster.edges.map(|edge| vector(edge, 0.0));
-    let number = number as f32 + 1.0;
-    let number = if caster.faces_light { number } else { -number };
-    [vector(caster.shifted_plane(rays), number), ab, bc, ca]
 }

@@ -1,4 +1,4 @@
-//! The light buffer on the GPU: three buffer textures and two uniforms.
+//! The light buffer on the GPU: two buffer textures and two uniforms.
 //!
 //! SAFETY: see [`crate::gl`]; every call here has the current context, and every pointer that GL gets comes from a slice
 //! that outlives the call.
@@ -8,7 +8,7 @@ use glam::{DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 use super::builder::{Builder, LightBuffer, Placed};
-use super::grid::Layout;
+use super::layout::Layout;
 use super::space::LightSpace;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program};
@@ -20,27 +20,26 @@ pub struct Binding {
     /// The pass that builds it.
     pub pass: &'static str,
     /// The parts of the `LightBuffer` of `exact.frag`, in its order.
-    pub uniforms: [&'static str; 5],
-    /// The first of three texture units that nothing else has.
+    pub uniforms: [&'static str; 4],
+    /// The first of two texture units that nothing else has.
     pub first_unit: u32,
 }
 
 /// The uniforms of a lab's only light buffer.
-pub const LIGHT_BUFFER: [&str; 5] = [
+pub const LIGHT_BUFFER: [&str; 4] = [
     "light_buffer.cells",
-    "light_buffer.lists",
-    "light_buffer.casters",
+    "light_buffer.nodes",
     "light_buffer.rectangle",
     "light_buffer.side",
 ];
 
-/// A caster's number goes through a float.
-const MOST_TRIANGLES: u32 = (1 << 24) - 1;
+/// Four numbers of four bytes.
+const TEXEL: usize = 16;
 
 /// A light buffer in the driver.
 pub struct ExactTest {
     binding: &'static Binding,
-    textures: [BufferTexture; 3],
+    textures: [BufferTexture; 2],
     /// `GL_MAX_TEXTURE_BUFFER_SIZE`.
     most_texels: usize,
     /// What it was built from, while that still holds; and what the shader is told of it.
@@ -69,24 +68,18 @@ struct BufferTexture {
     texture: glow::Texture,
     buffer: glow::Buffer,
     internal_format: u32,
-    /// In bytes.
-    texel: usize,
     capacity: usize,
 }
 
 impl ExactTest {
     pub fn new(gl: &glow::Context, binding: &'static Binding) -> Result<Self> {
-        let [cells, lists, casters, ..] = binding.uniforms;
-        let [cells, lists, casters] = [
-            (cells, glow::RGBA32UI, 16),
-            (lists, glow::R32UI, 4),
-            (casters, glow::RGBA32F, 16),
-        ]
-        .map(|(name, internal_format, texel)| BufferTexture::new(gl, name, internal_format, texel));
+        let [cells, nodes, ..] = binding.uniforms;
+        let cells = BufferTexture::new(gl, cells, glow::RGBA32UI)?;
+        let nodes = BufferTexture::new(gl, nodes, glow::RGBA32I)?;
         let most_texels = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_BUFFER_SIZE) };
         Ok(Self {
             binding,
-            textures: [cells?, lists?, casters?],
+            textures: [cells, nodes],
             most_texels: most_texels as usize,
             built: None,
         })
@@ -181,21 +174,13 @@ impl ExactTest {
 
 fn upload(
     gl: &glow::Context,
-    textures: &mut [BufferTexture; 3],
+    textures: &mut [BufferTexture; 2],
     light_buffer: &LightBuffer,
     most_texels: usize,
 ) -> Result<()> {
-    let triangles = light_buffer.triangle_count;
-    if triangles > MOST_TRIANGLES {
-        return Err(Error::gl(format!(
-            "the exact shadow test: {triangles} triangles, expected at most {MOST_TRIANGLES}: \
-             a smaller scene, or shadow_test=handout"
-        )));
-    }
-    let contents: [&[u8]; 3] = [
+    let contents: [&[u8]; 2] = [
         bytemuck::cast_slice(&light_buffer.cells),
-        bytemuck::cast_slice(&light_buffer.lists),
-        bytemuck::cast_slice(&light_buffer.casters),
+        bytemuck::cast_slice(&light_buffer.nodes),
     ];
     for (texture, contents) in textures.iter_mut().zip(contents) {
         texture.upload(gl, contents, most_texels)?;
@@ -204,12 +189,7 @@ fn upload(
 }
 
 impl BufferTexture {
-    fn new(
-        gl: &glow::Context,
-        name: &'static str,
-        internal_format: u32,
-        texel: usize,
-    ) -> Result<Self> {
+    fn new(gl: &glow::Context, name: &'static str, internal_format: u32) -> Result<Self> {
         unsafe {
             let buffer = gl.create_buffer().map_err(Error::gl)?;
             name_object(ObjectKind::Buffer, buffer.0.get(), name);
@@ -220,20 +200,19 @@ impl BufferTexture {
                 texture,
                 buffer,
                 internal_format,
-                texel,
                 capacity: 0,
             })
         }
     }
 
     fn upload(&mut self, gl: &glow::Context, contents: &[u8], most_texels: usize) -> Result<()> {
-        let texels = contents.len() / self.texel;
+        let texels = contents.len() / TEXEL;
         check_size(self.name, texels, most_texels)?;
         unsafe {
             gl.bind_buffer(glow::TEXTURE_BUFFER, Some(self.buffer));
             // Larger than now by half: a light that moves a little finds room.
             if contents.len() > self.capacity || self.capacity == 0 {
-                self.capacity = (texels + texels / 2).clamp(1, most_texels) * self.texel;
+                self.capacity = (texels + texels / 2).clamp(1, most_texels) * TEXEL;
                 let capacity = self.capacity as i32;
                 gl.buffer_data_size(glow::TEXTURE_BUFFER, capacity, glow::DYNAMIC_DRAW);
                 gl.bind_texture(glow::TEXTURE_BUFFER, Some(self.texture));

@@ -9,7 +9,9 @@
 //! | where the light is, and along which axes it looks | `space.rs` |
 //! | what a ray is tested against: three planes through the edges, and the triangle's own | `caster.rs` |
 //! | which triangles can cast onto something | `builder.rs` |
-//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `polygon.rs` |
+//! | how cells lie over the light's view, and where in it a triangle is seen | `layout.rs` |
+//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `band.rs`, `polygon.rs` |
+//! | the planes as the shader goes through them | `node.rs` |
 //! | the buffer textures and the uniforms | `gpu.rs` |
 //! | the test | `glsl/shadow_tests/exact.frag` |
 //!
@@ -26,17 +28,22 @@
 //! What it cannot see: a camera inside a closed solid, which the light is outside of, sees what else is in there lit.
 //! Of a closed solid only the far side casts, and there it has none behind it.
 
+mod band;
 mod builder;
 mod caster;
 mod gpu;
 mod grid;
+mod layout;
+mod node;
 mod polygon;
 mod space;
 mod topology;
 
+pub use band::Cell;
 pub use builder::{Builder, LightBuffer, Placed};
 pub use gpu::{Binding, ExactTest, LIGHT_BUFFER};
-pub use grid::{Cell, Layout};
+pub use layout::Layout;
+pub use node::{DARK, FACES_LIGHT, Node};
 pub use space::{LightSpace, Rays};
 pub use topology::Topology;
 

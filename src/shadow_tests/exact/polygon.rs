@@ -17,11 +17,11 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// Of two corners or three.
-    pub fn new<const N: usize>(from: [DVec3; N]) -> Self {
+    /// A triangle; or an edge, with two corners at one end.
+    pub fn new(from: [DVec3; 3]) -> Self {
         let mut corners = [DVec3::ZERO; MOST_CORNERS];
-        corners[..N].copy_from_slice(&from);
-        Self { corners, count: N }
+        corners[..3].copy_from_slice(&from);
+        Self { corners, count: 3 }
     }
 
     pub fn corners(&self) -> &[DVec3] {
@@ -71,59 +71,105 @@ impl Polygon {
     }
 }
 
-/// Visits each cell (column, row) that a convex polygon, given in cells, may meet, of a grid with `side` cells a side.
-pub fn visit_cells(corners: &[DVec2], side: u32, mut visit: impl FnMut(u32, u32)) {
-    let least = corners.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let most = corners
-        .iter()
-        .copied()
-        .fold(DVec2::NEG_INFINITY, DVec2::max);
-    let [(left, right), (bottom, top)] =
-        [(least.x, most.x), (least.y, most.y)].map(|(least, most)| cells(least, most, side));
-    let whole_rows = bottom == top || left == right;
-    for row in bottom..=top {
-        let (first, last) = if whole_rows {
-            (left, right)
+/// The first and the last row that a polygon, given in cells, may meet, of a grid with `side` cells a side.
+pub fn rows(corners: &[DVec2], side: u32) -> [u32; 2] {
+    cells(extent(corners.iter().map(|corner| corner.y)), side)
+}
+
+/// An edge of a polygon, from its lower end to its upper one.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    low: f64,
+    high: f64,
+    /// At the lower end.
+    x: f64,
+    slope: f64,
+}
+
+impl Edge {
+    fn new(from: DVec2, to: DVec2) -> Self {
+        let (low, high) = if from.y < to.y {
+            (from, to)
         } else {
-            let (low, high) = (f64::from(row) - PADDING, f64::from(row) + 1.0 + PADDING);
-            let [least, most] = extent(corners, low, high);
-            if least > most {
-                continue;
-            }
-            cells(least, most, side)
+            (to, from)
         };
-        for column in first..=last {
-            visit(column, row);
+        // Of a level edge one corner is enough: the other one is on the next edge too.
+        let slope = if low.y < high.y {
+            (high.x - low.x) / (high.y - low.y)
+        } else {
+            0.0
+        };
+        Self {
+            low: low.y,
+            high: high.y,
+            x: low.x,
+            slope,
+        }
+    }
+}
+
+/// Visits the rows between a first and a last one, each with the first and the last cell that the polygon may meet there.
+pub fn visit_rows(
+    corners: &[DVec2],
+    side: u32,
+    [first, last]: [u32; 2],
+    mut visit: impl FnMut(u32, [u32; 2]),
+) {
+    let [left, right] = cells(extent(corners.iter().map(|corner| corner.x)), side);
+    let [bottom, top] = rows(corners, side);
+    let mut edges = [Edge::default(); MOST_CORNERS];
+    let edges = &mut edges[..corners.len()];
+    let is_scanned = left < right && bottom < top;
+    if is_scanned {
+        let mut from = corners[corners.len() - 1];
+        for (edge, to) in edges.iter_mut().zip(corners) {
+            *edge = Edge::new(from, *to);
+            from = *to;
+        }
+    }
+    for row in bottom.max(first)..=top.min(last) {
+        if !is_scanned {
+            visit(row, [left, right]);
+            continue;
+        }
+        let (low, high) = (f64::from(row) - PADDING, f64::from(row) + 1.0 + PADDING);
+        let mut reached = [f64::INFINITY, f64::NEG_INFINITY];
+        for edge in &*edges {
+            let (start, end) = (larger(edge.low, low), smaller(edge.high, high));
+            if start <= end {
+                let [start, end] = [start, end].map(|y| edge.x + (y - edge.low) * edge.slope);
+                reached[0] = smaller(reached[0], smaller(start, end));
+                reached[1] = larger(reached[1], larger(start, end));
+            }
+        }
+        if reached[0] <= reached[1] {
+            visit(row, cells(reached, side));
         }
     }
 }
 
 /// The first and the last cell of a stretch.
-fn cells(least: f64, most: f64, side: u32) -> (u32, u32) {
+fn cells([least, most]: [f64; 2], side: u32) -> [u32; 2] {
     let end = f64::from(side - 1);
-    let cell = |place: f64| place.floor().clamp(0.0, end) as u32;
-    (cell(least - PADDING), cell(most + PADDING))
+    // What is not negative is rounded down.
+    [least - PADDING, most + PADDING].map(|place| smaller(larger(place, 0.0), end) as u32)
 }
 
-/// The least and the largest x of what lies between two heights.
-fn extent(corners: &[DVec2], low: f64, high: f64) -> [f64; 2] {
-    let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
-    let mut take = |x: f64| {
-        least = least.min(x);
-        most = most.max(x);
-    };
-    for (i, from) in corners.iter().enumerate() {
-        let to = corners[(i + 1) % corners.len()];
-        if (low..=high).contains(&from.y) {
-            take(from.x);
-        }
-        for height in [low, high] {
-            if (from.y < height) != (to.y < height) {
-                take(from.x + (height - from.y) / (to.y - from.y) * (to.x - from.x));
-            }
-        }
-    }
-    [least, most]
+/// The least and the largest of some values.
+pub fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+    values.fold(nothing, |[least, most], value| {
+        [smaller(least, value), larger(most, value)]
+    })
+}
+
+/// One instruction each: nothing here is NaN, for which `f64::min` and `f64::max` care.
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]
@@ -159,9 +205,18 @@ mod tests {
             DVec2::new(3.9, 12.4),
         ];
         let mut visited = std::collections::BTreeSet::new();
-        visit_cells(&corners, 16, |column, row| {
-            assert!(visited.insert((column, row)), "twice");
+        visit_rows(&corners, 16, [0, 15], |row, [first, last]| {
+            for column in first..=last {
+                assert!(visited.insert((column, row)), "twice");
+            }
         });
+        // A part of the rows is a part of the cells.
+        let mut part = std::collections::BTreeSet::new();
+        visit_rows(&corners, 16, [4, 6], |row, [first, last]| {
+            part.extend((first..=last).map(|column| (column, row)));
+        });
+        let in_rows = visited.iter().filter(|(_, row)| (4..=6).contains(row));
+        assert!(in_rows.eq(&part));
         let mut met = std::collections::BTreeSet::new();
         let steps = 400;
         for i in 0..=steps {

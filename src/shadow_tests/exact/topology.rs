@@ -17,19 +17,31 @@ pub struct Topology {
     /// Of each face: whether its component's edges are each used as often in one direction as in the other, so that it
     /// encloses volumes.
     pub closed: Vec<bool>,
+    /// The component of each face.
+    pub component_of: Vec<u32>,
     /// The two points of each edge.
     pub edges: Vec<[u32; 2]>,
-    /// The three edges of each face: from corner 0 to 1, 1 to 2, 2 to 0.
-    pub face_edges: Vec<[FaceEdge; 3]>,
+    /// Which faces use the edges: the first edge's, then the second one's, and so on.
+    uses: Vec<Use>,
+    /// Where each edge's uses begin; and, behind the last, where they end.
+    first_uses: Vec<u32>,
     /// The corners of the box around the mesh.
     pub bounds: [DVec3; 2],
 }
 
-#[derive(Clone, Copy)]
-pub struct FaceEdge {
-    pub edge: u32,
+/// A face that has an edge.
+#[derive(Clone, Copy, Default)]
+pub struct Use {
+    pub face: u32,
     /// 1 if the face has the edge's points in their order, −1 in the other, 0 if they are one point.
     pub direction: i32,
+}
+
+/// An edge of a face.
+#[derive(Clone, Copy)]
+struct FaceEdge {
+    edge: u32,
+    direction: i32,
 }
 
 impl Topology {
@@ -42,16 +54,25 @@ impl Topology {
             .collect();
         let (edges, face_edges) = edges(&faces);
         let components = components(points.len(), &faces);
+        let mut component_of = vec![0; faces.len()];
+        for (component, number) in components.iter().zip(0..) {
+            for face in component {
+                component_of[*face as usize] = number;
+            }
+        }
         let closed = closed(&components, edges.len(), &face_edges);
+        let (uses, first_uses) = uses(edges.len(), &face_edges);
         let least = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let most = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         Self {
             points,
             faces,
             components,
+            component_of,
             closed,
             edges,
-            face_edges,
+            uses,
+            first_uses,
             bounds: [least, most],
         }
     }
@@ -68,6 +89,11 @@ impl Topology {
         !self.faces.is_empty()
             && self.closed.iter().all(|closed| *closed)
             && self.components.iter().all(|part| volume(part) > 0.0)
+    }
+
+    pub fn uses(&self, edge: usize) -> &[Use] {
+        let [first, end] = [edge, edge + 1].map(|edge| self.first_uses[edge] as usize);
+        &self.uses[first..end]
     }
 }
 
@@ -104,6 +130,27 @@ fn edges(faces: &[[u32; 3]]) -> (Vec<[u32; 2]>, Vec<[FaceEdge; 3]>) {
         .map(|[a, b, c]| [number(*a, *b), number(*b, *c), number(*c, *a)])
         .collect();
     (edges, face_edges)
+}
+
+/// The faces sorted by edge, and where each edge's begin.
+fn uses(edges: usize, face_edges: &[[FaceEdge; 3]]) -> (Vec<Use>, Vec<u32>) {
+    let mut first_uses = vec![0; edges + 1];
+    for FaceEdge { edge, .. } in face_edges.iter().flatten() {
+        first_uses[*edge as usize + 1] += 1;
+    }
+    for edge in 0..edges {
+        first_uses[edge + 1] += first_uses[edge];
+    }
+    let mut next = first_uses.clone();
+    let mut uses = vec![Use::default(); 3 * face_edges.len()];
+    for (of_face, face) in face_edges.iter().zip(0..) {
+        for FaceEdge { edge, direction } in *of_face {
+            let place = &mut next[edge as usize];
+            uses[*place as usize] = Use { face, direction };
+            *place += 1;
+        }
+    }
+    (uses, first_uses)
 }
 
 fn components(points: usize, faces: &[[u32; 3]]) -> Vec<Vec<u32>> {

@@ -1,0 +1,242 @@
+//! Some rows of cells while they are filled: which casters each cell lists, and what is known of it as a whole.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec3};
+
+use super::caster::Caster;
+use super::layout::{BOUNDARY, Layout, Seen, Shape};
+use super::node::Node;
+use super::polygon::{PADDING, extent, larger, smaller, visit_rows};
+use super::space::Rays;
+
+/// A cell as the shader reads it. Nearness is 1/depth or, where rays are parallel, z.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Cell {
+    /// What is nearer than this is lit, whatever the list says.
+    pub lit_above: f32,
+    /// What is farther than this is dark.
+    pub dark_below: f32,
+    /// Its list's first node, and the one behind its last.
+    pub first: u32,
+    pub end: u32,
+}
+
+/// What the grid is filled with.
+#[derive(Clone, Copy)]
+pub struct Content<'a> {
+    pub layout: Layout,
+    /// Sorted by group; a group's boundary is in front of its casters.
+    pub shapes: &'a [Shape],
+    pub points: &'a [DVec3],
+    pub seen: &'a [Seen],
+    /// By their numbers.
+    pub casters: &'a [Caster],
+}
+
+/// A shape on a face.
+#[derive(Clone, Copy)]
+pub struct Piece {
+    pub shape: u32,
+    pub face: u32,
+    /// The first and the last row, counted through all faces.
+    pub rows: [u32; 2],
+}
+
+/// A caster that a cell of a band sees.
+struct Entry {
+    cell: u32,
+    caster: u32,
+    /// The nearest that it comes to the light there.
+    nearest: f32,
+}
+
+/// Some rows of cells.
+#[derive(Default)]
+pub struct Band {
+    /// The first and the last, counted through all faces.
+    pub rows: [u32; 2],
+    cells: Vec<Unfinished>,
+    entries: Vec<Entry>,
+    /// How many entries are of use.
+    pub listed: u32,
+}
+
+#[derive(Clone, Copy)]
+struct Unfinished {
+    lit_above: f32,
+    dark_below: f32,
+    /// The last group whose boundary passes the cell, and the last one that has a caster in it.
+    boundary_of: u32,
+    some_of: u32,
+    /// The farthest of that group here.
+    farthest: f32,
+    /// How many entries are of use.
+    listed: u32,
+}
+
+const EMPTY: Unfinished = Unfinished {
+    lit_above: f32::NEG_INFINITY,
+    dark_below: f32::NEG_INFINITY,
+    boundary_of: u32::MAX,
+    some_of: u32::MAX,
+    farthest: 0.0,
+    listed: 0,
+};
+
+impl Band {
+    pub fn fill(&mut self, content: Content, pieces: &[Vec<Piece>]) {
+        let [first, last] = self.rows;
+        let count = (last - first + 1) * content.layout.side;
+        self.cells.clear();
+        self.cells.resize(count as usize, EMPTY);
+        self.entries.clear();
+        let mut first_of_group = 0;
+        let mut group = 0;
+        for piece in pieces.iter().flatten() {
+            if piece.rows[0] > last || piece.rows[1] < first {
+                continue;
+            }
+            let shape = &content.shapes[piece.shape as usize];
+            if shape.group != group {
+                self.cover(group, first_of_group);
+                first_of_group = self.entries.len();
+                group = shape.group;
+            }
+            match shape.caster {
+                BOUNDARY => self.add_boundary(content, piece, shape),
+                _ => self.add_caster(content, piece, shape),
+            }
+        }
+        self.cover(group, first_of_group);
+        self.listed = 0;
+        for entry in &self.entries {
+            let cell = &mut self.cells[entry.cell as usize];
+            let is_of_use = u32::from(entry.nearest >= cell.dark_below);
+            cell.listed += is_of_use;
+            self.listed += is_of_use;
+        }
+    }
+
+    /// Where a group has no boundary, its edge does not run: it covers the cell as a whole, as soon as any of it is there.
+    fn cover(&mut self, group: u32, first_entry: usize) {
+        for Entry { cell, .. } in &self.entries[first_entry..] {
+            let cell = &mut self.cells[*cell as usize];
+            if cell.boundary_of != group {
+                cell.dark_below = cell.dark_below.max(cell.farthest);
+            }
+        }
+    }
+
+    /// Of a piece, the rows of its face that are in the band; and the number of the face's first cell, as the band counts.
+    fn rows_of_face(&self, side: u32, face: u32) -> ([u32; 2], i64) {
+        let [first, last] = self.rows.map(|row| i64::from(row) - i64::from(face * side));
+        let end = i64::from(side) - 1;
+        let rows = [first.max(0) as u32, last.min(end) as u32];
+        (rows, -first * i64::from(side))
+    }
+
+    fn add_boundary(&mut self, content: Content, piece: &Piece, shape: &Shape) {
+        let Content {
+            layout,
+            points,
+            seen,
+            ..
+        } = content;
+        let outline = layout.outline(shape, piece.face, points, seen);
+        let (rows, first_cell) = self.rows_of_face(layout.side, piece.face);
+        visit_rows(
+            outline.corners(),
+            layout.side,
+            rows,
+            |row, [first, last]| {
+                let start = first_cell + i64::from(row * layout.side);
+                let [first, last] =
+                    [first, last].map(|column| (start + i64::from(column)) as usize);
+                for cell in &mut self.cells[first..=last] {
+                    cell.boundary_of = shape.group;
+                }
+            },
+        );
+    }
+
+    fn add_caster(&mut self, content: Content, piece: &Piece, shape: &Shape) {
+        let Content {
+            layout,
+            points,
+            seen,
+            casters,
+            ..
+        } = content;
+        let outline = layout.outline(shape, piece.face, points, seen);
+        let caster = &casters[shape.caster as usize];
+        let plane = layout.nearness(piece.face, caster.plane);
+        let slope = plane.truncate();
+        let half_range = (0.5 + PADDING) * slope.abs().element_sum();
+        // What rounding may do to a nearness, in parallel rays and relative.
+        let (offset, share) = match layout.rays {
+            Rays::Parallel => (caster.rounding, 0.0),
+            Rays::Spot | Rays::Point => (0.0, caster.rounding),
+        };
+        // No nearer and no farther than the triangle's own corners.
+        let corners = outline.corners().iter();
+        let [least, most] = extent(corners.map(|corner| slope.dot(*corner) + plane.z));
+        let (rows, first_cell) = self.rows_of_face(layout.side, piece.face);
+        visit_rows(
+            outline.corners(),
+            layout.side,
+            rows,
+            |row, [first, last]| {
+                let start = first_cell + i64::from(row * layout.side);
+                for column in first..=last {
+                    let middle = DVec2::new(f64::from(column), f64::from(row)) + 0.5;
+                    let middle = slope.dot(middle) + plane.z;
+                    let nearest = smaller(most, middle + half_range) * (1.0 + share) + offset;
+                    let farthest = larger(least, middle - half_range) * (1.0 - share) - offset;
+                    let (nearest, farthest) = (nearest as f32, farthest as f32);
+                    let index = (start + i64::from(column)) as u32;
+                    self.entries.push(Entry {
+                        cell: index,
+                        caster: shape.caster,
+                        nearest,
+                    });
+                    let cell = &mut self.cells[index as usize];
+                    if nearest > cell.lit_above {
+                        cell.lit_above = nearest;
+                    }
+                    if cell.some_of != shape.group || farthest < cell.farthest {
+                        cell.farthest = farthest;
+                        cell.some_of = shape.group;
+                    }
+                }
+            },
+        );
+    }
+
+    /// The cells with their lists, one list behind the other, without what lies in the dark anyway.
+    pub fn write(
+        &self,
+        cells: &mut [Cell],
+        lists: &mut [Node],
+        first: u32,
+        node: &impl Fn(u32) -> Node,
+    ) {
+        let mut next = first;
+        for (cell, from) in cells.iter_mut().zip(&self.cells) {
+            *cell = Cell {
+                lit_above: from.lit_above,
+                dark_below: from.dark_below,
+                first: next,
+                end: next,
+            };
+            next += from.listed;
+        }
+        for entry in &self.entries {
+            let cell = &mut cells[entry.cell as usize];
+            if entry.nearest >= cell.dark_below {
+                lists[(cell.end - first) as usize] = node(entry.caster);
+                cell.end += 1;
+            }
+        }
+    }
+}
