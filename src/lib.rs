@@ -20,6 +20,7 @@
 //! `shadow_tests` and `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
+pub mod compare;
 pub mod error;
 pub mod gl;
 pub mod ground_truth;
