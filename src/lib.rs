@@ -28,6 +28,7 @@ pub mod hard;
 pub mod headless;
 pub mod labs;
 pub mod measure;
+pub mod mistakes;
 pub mod picture;
 pub mod progress;
 pub mod report;

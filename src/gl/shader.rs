@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glow::HasContext;
 
+use super::edits;
 use super::mesh::ATTRIBUTES;
 use super::uniform::{Uniform, Value};
 use crate::scene::reading;
@@ -69,7 +70,10 @@ impl Shaders {
                 true => Path::new("glsl").join(name),
                 false => Path::new("glsl").join(self.lab).join(name),
             },
-            text: Cow::Borrowed(text),
+            text: match edits::shader(name, text) {
+                Some(edited) => Cow::Owned(edited),
+                None => Cow::Borrowed(text),
+            },
             students: false,
         })
     }
@@ -179,7 +183,9 @@ impl Program {
 
     /// Sets a uniform of this program, which must be in use. A value that it has already is not sent again.
     pub fn set(&self, gl: &glow::Context, name: &str, value: impl Into<Value>) {
-        self.uniform(name).set(gl, value.into());
+        if let Some(value) = edits::uniform(name, value.into()) {
+            self.uniform(name).set(gl, value);
+        }
     }
 
     fn uniform(&self, name: &str) -> &Uniform {
