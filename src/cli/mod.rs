@@ -15,6 +15,7 @@ use glam::DVec3;
 use shadowlab::gl::trace;
 use shadowlab::hard;
 use shadowlab::labs::{self, Probe, Show, parse_keys};
+use shadowlab::mistakes;
 use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, headless};
 
@@ -136,6 +137,7 @@ impl ViewOptions {
     fn run(self) -> Result<()> {
         let state = self.state;
         let handout = labs::find(&state.lab)?;
+        let _mistake = state.make_mistake()?;
         let inputs = parse_keys(&state.changes.keys)?;
         let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
         window::open(View {
@@ -183,6 +185,7 @@ impl Explain {
             (None, None) => unreachable!("clap asks for one of them"),
         };
         check_light(labs::find(&self.state.lab)?, self.light)?;
+        self.state.changes.refuse_mistake("explain")?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running
@@ -206,6 +209,10 @@ fn labs_text() -> String {
             let (default, expected) = (setting.kind.default_text(), setting.kind.expected());
             text += &format!("    {:21}{}\n", setting.name, setting.help);
             text += &format!("    {:21}{expected}; default {default}\n", "");
+        }
+        text += "\n  mistakes (--mistake NAME)\n";
+        for (mistake, _) in mistakes::of_lab(lab.name) {
+            text += &format!("    {:22}{}\n", mistake.name, mistake.symptom);
         }
         let cases: Vec<_> = hard::cases().filter(|case| case.lab == lab.name).collect();
         if !cases.is_empty() {

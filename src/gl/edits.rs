@@ -82,6 +82,11 @@ pub struct Edited {
     before: Edits,
 }
 
+/// Whether calls are edited: then a context needs the shims of [`super::trace`].
+pub fn are_of_calls() -> bool {
+    !EDITS.get().calls.is_empty()
+}
+
 pub fn set(edits: Edits) -> Edited {
     Edited {
         before: EDITS.replace(edits),

@@ -69,16 +69,14 @@ pub const MISTAKES: &[Mistake] = &[
         symptom: "with the light straight overhead the shadows are gone",
         cause: "the light looks along the up vector: their cross product is zero, and the view matrix is NaN",
         fix: "choose another up vector where the light looks along it",
-        made: &[
-            Made {
-                lab: "cs541",
-                place: "First pass: the camera with its center of projection at the light",
-                edits: edits! {
-                    uniform "view_matrix" in "first pass": without_right;
-                    uniform "shadow_view_matrix" in "": without_right;
-                },
+        made: &[Made {
+            lab: "cs541",
+            place: "First pass: the camera with its center of projection at the light",
+            edits: edits! {
+                uniform "view_matrix" in "first pass": without_right;
+                uniform "shadow_view_matrix" in "": without_right;
             },
-        ],
+        }],
     },
     Mistake {
         name: "frustum_too_small",
@@ -113,12 +111,10 @@ pub const MISTAKES: &[Mistake] = &[
         symptom: "shadows do not have the shape, the size or the turn of what casts them",
         cause: "the first pass leaves out a part of an object's model matrix",
         fix: "draw both passes with one function and the same matrices",
-        made: &[
-            Made {
-                lab: "cs541",
-                place: "First pass: model_matrix",
-                edits: edits! { uniform "model_matrix" in "first pass": unrotated; },
-            },
-        ],
+        made: &[Made {
+            lab: "cs541",
+            place: "First pass: model_matrix",
+            edits: edits! { uniform "model_matrix" in "first pass": unrotated; },
+        }],
     },
 ];

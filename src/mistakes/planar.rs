@@ -1,6 +1,6 @@
 //! Mistakes of projected shadows.
 
-use super::values::{never, transposed};
+use super::values::never;
 use super::{Made, Mistake};
 use crate::gl::edits::Make;
 
@@ -67,7 +67,10 @@ pub const MISTAKES: &[Mistake] = &[
         made: &[Made {
             lab: "eecs487",
             place: "1. Hard shadows: multShadowMat",
-            edits: edits! { uniform "modelViewProjection" in "shadow": transposed; },
+            edits: edits! {
+                file "shadow.vert": "modelViewProjection * vec4(position, 1)" =>
+                    "transpose(modelViewProjection) * vec4(position, 1)";
+            },
         }],
     },
     Mistake {

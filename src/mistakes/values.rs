@@ -82,7 +82,9 @@ pub fn without_right(value: Value) -> Option<Value> {
 }
 
 pub fn unrotated(value: Value) -> Option<Value> {
-    matrix(value, |model| DMat4::from_translation(model.w_axis.truncate()))
+    matrix(value, |model| {
+        DMat4::from_translation(model.w_axis.truncate())
+    })
 }
 
 // Of a matrix that ends in [0,1].
@@ -191,7 +193,10 @@ mod tests {
     }
 
     fn is_near(a: DMat4, b: DMat4) {
-        let largest = b.to_cols_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let largest = b
+            .to_cols_array()
+            .iter()
+            .fold(0.0_f64, |m, x| m.max(x.abs()));
         assert!(a.abs_diff_eq(b, 1e-9 * largest), "{a}\n{b}");
     }
 
@@ -204,7 +209,10 @@ mod tests {
     fn a_field_of_view_in_degrees() {
         // 60° as 60 radians: 60/2 rad is 1718.87°.
         let factor = 30_f64.to_radians().tan() / 30_f64.tan();
-        is_near(in_degrees(light(1.0, 60.0)), across(light(1.0, 60.0), factor));
+        is_near(
+            in_degrees(light(1.0, 60.0)),
+            across(light(1.0, 60.0), factor),
+        );
     }
 
     #[test]
