@@ -21,6 +21,7 @@
 #![deny(unsafe_code)]
 
 pub mod compare;
+pub mod diagnosis;
 pub mod error;
 pub mod gl;
 pub mod ground_truth;

@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+mod compare;
 mod gallery;
 mod measuring;
 mod report;
@@ -9,6 +10,7 @@ mod timings;
 mod values;
 
 use std::io::Write;
+use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
@@ -49,6 +51,8 @@ enum Command {
     Truth(measuring::TruthCommand),
     /// Hold the lab's shadows, or a visibility picture, against the truth
     Measure(measuring::MeasureCommand),
+    /// Hold my own program's picture against the lab's, and tell which mistake explains it
+    Compare(compare::CompareCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
     Report(report::ReportCommand),
     /// List the labs with their keys and settings
@@ -118,8 +122,9 @@ struct Place {
 }
 
 impl Cli {
-    pub fn run(self) -> Result<()> {
+    pub fn run(self) -> Result<ExitCode> {
         match self.command {
+            Command::Compare(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
@@ -129,7 +134,13 @@ impl Cli {
             Command::Report(options) => options.run(),
             Command::Labs => print(&labs_text()),
             Command::Devices => print(&devices_text()?),
-        }
+        }?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
+    pub fn trouble_code(&self) -> Option<u8> {
+        matches!(self.command, Command::Compare(_)).then_some(compare::TROUBLE)
     }
 }
 

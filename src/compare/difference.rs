@@ -33,18 +33,16 @@ pub struct Difference {
 impl Difference {
     /// Of two pictures of one size.
     pub fn new(mine: &RgbImage, reference: &RgbImage, matching: Matching) -> Self {
-        assert_eq!(mine.dimensions(), reference.dimensions());
+        let range = match matching {
+            Matching::Exact => Envelope::exact(reference),
+            Matching::WithinAPixel => Envelope::new(reference),
+        };
         let mut differing = 0;
         let mut sum = 0.0;
         let mut largest = 0;
-        for (x, y, pixel) in mine.enumerate_pixels() {
-            let [least, most] = range(reference, x, y, matching);
-            let mut worst = 0;
-            for ((value, least), most) in pixel.0.iter().zip(least).zip(most) {
-                let off = least.saturating_sub(*value).max(value.saturating_sub(most));
-                sum += f64::from(off);
-                worst = worst.max(off);
-            }
+        for off in range.outside(mine) {
+            sum += off.into_iter().map(f64::from).sum::<f64>();
+            let worst = off.into_iter().max().expect("a pixel has channels");
             differing += usize::from(worst > TOLERANCE);
             largest = largest.max(worst);
         }
@@ -68,24 +66,65 @@ impl Difference {
     }
 }
 
-/// The least and the most that each channel may be.
-fn range(reference: &RgbImage, x: u32, y: u32, matching: Matching) -> [[u8; 3]; 2] {
-    let reach = match matching {
-        Matching::Exact => 0,
-        Matching::WithinAPixel => 1,
-    };
-    let columns = x.saturating_sub(reach)..=(x + reach).min(reference.width() - 1);
-    let rows = y.saturating_sub(reach)..=(y + reach).min(reference.height() - 1);
-    let mut range = [[255; 3], [0; 3]];
-    for y in rows {
-        for x in columns.clone() {
-            for (channel, value) in reference.get_pixel(x, y).0.into_iter().enumerate() {
-                range[0][channel] = range[0][channel].min(value);
-                range[1][channel] = range[1][channel].max(value);
-            }
+/// The least and the most that each channel of each pixel may be.
+pub struct Envelope {
+    least: RgbImage,
+    most: RgbImage,
+}
+
+impl Envelope {
+    /// Within a pixel of the reference.
+    pub fn new(reference: &RgbImage) -> Self {
+        Self {
+            least: spread(reference, u8::min),
+            most: spread(reference, u8::max),
         }
     }
-    range
+
+    fn exact(reference: &RgbImage) -> Self {
+        Self {
+            least: reference.clone(),
+            most: reference.clone(),
+        }
+    }
+
+    /// By how many levels each channel of each pixel is outside.
+    fn outside(&self, mine: &RgbImage) -> impl Iterator<Item = [u8; 3]> {
+        assert_eq!(mine.dimensions(), self.least.dimensions());
+        let range = self.least.pixels().zip(self.most.pixels());
+        mine.pixels().zip(range).map(|(mine, (least, most))| {
+            let off = |channel: usize| {
+                let value = mine.0[channel];
+                let below = least.0[channel].saturating_sub(value);
+                below.max(value.saturating_sub(most.0[channel]))
+            };
+            [off(0), off(1), off(2)]
+        })
+    }
+
+    /// The share of the pixels that differ by more than [`TOLERANCE`].
+    pub fn share_outside(&self, mine: &RgbImage) -> f64 {
+        let differs = |off: &[u8; 3]| off.iter().any(|levels| *levels > TOLERANCE);
+        let differing = self.outside(mine).filter(differs).count();
+        differing as f64 / (mine.as_raw().len() / 3) as f64
+    }
+}
+
+/// Each channel's least or most of the nine pixels around: first along the rows, then along the columns.
+fn spread(picture: &RgbImage, choose: impl Fn(u8, u8) -> u8) -> RgbImage {
+    let (width, height) = picture.dimensions();
+    let pass = |from: &RgbImage, [dx, dy]: [u32; 2]| {
+        RgbImage::from_fn(width, height, |x, y| {
+            let own = from.get_pixel(x, y).0;
+            let before = from.get_pixel(x.saturating_sub(dx), y.saturating_sub(dy)).0;
+            let after = from
+                .get_pixel((x + dx).min(width - 1), (y + dy).min(height - 1))
+                .0;
+            let of = |channel: usize| choose(choose(own[channel], before[channel]), after[channel]);
+            Rgb([of(0), of(1), of(2)])
+        })
+    };
+    pass(&pass(picture, [1, 0]), [0, 1])
 }
 
 fn ssim(mine: &RgbImage, reference: &RgbImage) -> f64 {

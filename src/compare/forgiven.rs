@@ -50,7 +50,7 @@ const UNDONE: f64 = 6.0;
 /// Differences beyond this count as this: a mistake in the shadows must not decide on the rest of the picture.
 const CLIPPED: f64 = 64.0;
 /// So many pixels are enough to find out what a whole picture has in common.
-const ENOUGH_PIXELS: usize = 1 << 16;
+const ENOUGH_PIXELS: usize = 1 << 14;
 
 /// A picture in another size.
 pub fn resized(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
@@ -153,9 +153,9 @@ fn without_shift(mine: &RgbImage, reference: &RgbImage) -> Option<([i32; 2], Rgb
     let shifts = reach
         .clone()
         .flat_map(|y| reach.clone().map(move |x| [x, y]));
-    let fits = shifts.map(|shift| (shift, misfit(&shifted(mine, shift), reference)));
+    let fits = shifts.map(|shift| (shift, misfit_shifted(mine, reference, shift)));
     let (shift, after) = fits.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let is_it = shift != [0, 0] && after < 0.6 * misfit(mine, reference);
+    let is_it = shift != [0, 0] && after < 0.6 * misfit_shifted(mine, reference, [0, 0]);
     is_it.then(|| (shift, shifted(mine, shift)))
 }
 
@@ -167,6 +167,10 @@ fn shifted(picture: &RgbImage, [right, down]: [i32; 2]) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
         *picture.get_pixel(from(x, right, width), from(y, down, height))
     })
+}
+
+fn from(place: u32, by: i32, size: u32) -> u32 {
+    (place as i32 + by).clamp(0, size as i32 - 1) as u32
 }
 
 fn mapped(picture: &RgbImage, change: impl Fn([u8; 3]) -> [u8; 3]) -> RgbImage {
@@ -182,12 +186,15 @@ fn sampled<'a>(
     a: &'a RgbImage,
     b: &'a RgbImage,
 ) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + use<'a> {
-    let pixels = a.as_raw().len() / 3;
-    let step = pixels.div_ceil(ENOUGH_PIXELS).max(1);
-    // A step that divides the width would look at the same columns in every row.
-    let step = if step > 1 { step | 1 } else { 1 };
-    let pairs = a.pixels().zip(b.pixels()).step_by(step);
+    let pairs = a.pixels().zip(b.pixels()).step_by(step(a));
     pairs.map(|(a, b)| (a.0, b.0))
+}
+
+/// From one sampled pixel to the next.
+fn step(picture: &RgbImage) -> usize {
+    let step = (picture.as_raw().len() / 3).div_ceil(ENOUGH_PIXELS);
+    // A step that divides the width would look at the same columns in every row.
+    if step > 1 { step | 1 } else { 1 }
 }
 
 fn largest_difference((a, b): ([u8; 3], [u8; 3])) -> f64 {
@@ -200,6 +207,19 @@ fn misfit(a: &RgbImage, b: &RgbImage) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for pair in sampled(a, b) {
         sum += largest_difference(pair).min(CLIPPED);
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// The same of what [`shifted`] would make of the first.
+fn misfit_shifted(mine: &RgbImage, reference: &RgbImage, [right, down]: [i32; 2]) -> f64 {
+    let (width, height) = mine.dimensions();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for i in (0..mine.as_raw().len() / 3).step_by(step(mine)) {
+        let (x, y) = (i as u32 % width, i as u32 / width);
+        let pixel = mine.get_pixel(from(x, right, width), from(y, down, height));
+        sum += largest_difference((pixel.0, reference.get_pixel(x, y).0)).min(CLIPPED);
         count += 1.0;
     }
     sum / count

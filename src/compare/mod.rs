@@ -11,6 +11,6 @@ mod difference;
 mod forgiven;
 mod shadows;
 
-pub use difference::{Difference, Matching, SAME, TOLERANCE, heat_map};
+pub use difference::{Difference, Envelope, Matching, SAME, TOLERANCE, heat_map};
 pub use forgiven::{Forgiven, forgive, resized};
 pub use shadows::Shadows;

@@ -112,3 +112,9 @@ pub fn all_in_shadow(lab: &str) -> Edits {
         .expect("every lab has shadows")
         .edits
 }
+
+/// Nothing in shadow, where a lab has no setting for that.
+pub fn none_in_shadow(lab: &str) -> Option<Edits> {
+    let (_, made) = find("plane_sign", lab).ok()?;
+    Some(made.edits)
+}
