@@ -4,13 +4,15 @@
 use image::RgbImage;
 
 use crate::Result;
-use crate::compare::{Envelope, SAME, forgive};
+use crate::compare::{Envelope, SAME, forgive, unlikeness};
 use crate::mistakes::{self, Edits, Made, Mistake};
 
 /// A mistake explains a picture that is nearer to its own by this factor than to the right one.
 const EXPLAINS: f64 = 0.5;
 /// So much of a picture may differ from the mistake's own picture: a student's constants are not ours.
 const MOST_LEFT: f64 = 0.1;
+/// How many of the mistakes are looked at closely: those that are like the picture at a glance.
+const LOOKED_AT: usize = 8;
 /// How many explanations are told.
 const MOST_TOLD: usize = 3;
 
@@ -83,6 +85,14 @@ impl Suspects {
         })
     }
 
+    /// The mistakes' names and their pictures, group by group.
+    pub fn pictures(&self) -> impl Iterator<Item = (Vec<&'static str>, &RgbImage)> {
+        self.groups.iter().map(|group| {
+            let names = group.mistakes.iter().map(|(mistake, _)| mistake.name);
+            (names.collect(), &group.picture)
+        })
+    }
+
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
     pub fn diagnose(&self, mine: &RgbImage, strict: bool) -> Diagnosis {
         let left = |picture: &RgbImage, range: &Envelope| {
@@ -96,7 +106,12 @@ impl Suspects {
         if wrong <= SAME {
             return Diagnosis::Right;
         }
-        let explanations = self.groups.iter().map(|group| {
+        let mut nearest: Vec<&Group> = self.groups.iter().collect();
+        nearest.sort_by_cached_key(|group| {
+            // In thousandths of a level: whole numbers have an order.
+            (1000.0 * unlikeness(mine, &group.picture)) as u64
+        });
+        let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
             let left = left(&group.picture, &group.range);
             Explanation {
                 mistakes: group.mistakes.clone(),

@@ -3,6 +3,7 @@
 mod compare;
 mod gallery;
 mod measuring;
+mod mistakes;
 mod report;
 mod screenshot;
 mod state;
@@ -17,7 +18,6 @@ use glam::DVec3;
 use shadowlab::gl::trace;
 use shadowlab::hard;
 use shadowlab::labs::{self, Probe, Show, parse_keys};
-use shadowlab::mistakes;
 use shadowlab::window::{self, Api, View};
 use shadowlab::{Error, Result, headless};
 
@@ -53,6 +53,8 @@ enum Command {
     Measure(measuring::MeasureCommand),
     /// Hold my own program's picture against the lab's, and tell which mistake explains it
     Compare(compare::CompareCommand),
+    /// Show the classic mistakes, each beside the right picture: a page
+    Mistakes(mistakes::MistakesCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
     Report(report::ReportCommand),
     /// List the labs with their keys and settings
@@ -131,6 +133,7 @@ impl Cli {
             Command::Explain(options) => options.run(),
             Command::Truth(options) => options.run(),
             Command::Measure(options) => options.run(),
+            Command::Mistakes(options) => options.run(),
             Command::Report(options) => options.run(),
             Command::Labs => print(&labs_text()),
             Command::Devices => print(&devices_text()?),
@@ -222,7 +225,7 @@ fn labs_text() -> String {
             text += &format!("    {:21}{expected}; default {default}\n", "");
         }
         text += "\n  mistakes (--mistake NAME)\n";
-        for (mistake, _) in mistakes::of_lab(lab.name) {
+        for (mistake, _) in shadowlab::mistakes::of_lab(lab.name) {
             text += &format!("    {:22}{}\n", mistake.name, mistake.symptom);
         }
         let cases: Vec<_> = hard::cases().filter(|case| case.lab == lab.name).collect();

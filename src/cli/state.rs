@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use image::RgbImage;
 use shadowlab::gl;
-use shadowlab::gl::edits::{self, Edited};
+use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
@@ -173,6 +174,14 @@ impl State {
             timings,
             _mistake: mistake,
         })
+    }
+
+    /// The lab's picture, drawn in a context of its own: a mistake leaves something behind.
+    pub fn picture(&self, device: &Choice, with: Edits) -> Result<RgbImage> {
+        let _edited = edits::set(with);
+        let mut running = self.start(&Drawing::on(device), &[], false)?;
+        running.draw(1, Show::Picture)?;
+        Ok(gl::read_rgb(&running.context.gl, running.size))
     }
 
     /// Makes the mistake that is asked for, until what is returned is dropped.

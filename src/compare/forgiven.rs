@@ -84,6 +84,13 @@ pub fn forgive(mine: RgbImage, reference: &RgbImage) -> (RgbImage, Vec<Forgiven>
     (mine, forgiven)
 }
 
+/// How unlike two pictures are at a glance, in levels, whatever their curves: what tells which of many to look at.
+pub fn unlikeness(mine: &RgbImage, reference: &RgbImage) -> f64 {
+    let with_curve = CURVES.map(|curve| misfit(with(mine, reference, curve)));
+    let as_it_is = misfit(sampled(mine, reference));
+    with_curve.into_iter().fold(as_it_is, f64::min)
+}
+
 impl Curve {
     fn apply(self, value: f64) -> f64 {
         match self {
@@ -96,21 +103,34 @@ impl Curve {
         }
     }
 
-    fn applied(self, picture: &RgbImage) -> RgbImage {
-        let table: Vec<u8> = (0..=255)
+    fn table(self) -> Vec<u8> {
+        (0..=255)
             .map(|value| (255.0 * self.apply(f64::from(value) / 255.0)).round() as u8)
-            .collect();
+            .collect()
+    }
+
+    fn applied(self, picture: &RgbImage) -> RgbImage {
+        let table = self.table();
         mapped(picture, |channels| channels.map(|v| table[usize::from(v)]))
     }
 }
 
+/// The pairs, with a curve on the reference.
+fn with<'a>(
+    mine: &'a RgbImage,
+    reference: &'a RgbImage,
+    curve: Curve,
+) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + use<'a> {
+    let table = curve.table();
+    sampled(mine, reference).map(move |(a, b)| (a, b.map(|value| table[usize::from(value)])))
+}
+
 /// The curve is put on the reference, not undone in mine: where a curve is flat, undoing it tears levels apart.
 fn without_curve(mine: &RgbImage, reference: &RgbImage) -> Option<(Curve, RgbImage)> {
-    let before = misfit(mine, reference);
-    let fits = CURVES.map(|curve| (curve, misfit(mine, &curve.applied(reference))));
+    let fits = CURVES.map(|curve| (curve, misfit(with(mine, reference, curve))));
     let (curve, after) = fits.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let is_it =
-        after < before / 2.0 && median_difference(mine, &curve.applied(reference)) <= UNDONE;
+    let is_it = after < misfit(sampled(mine, reference)) / 2.0
+        && median(with(mine, reference, curve)) <= UNDONE;
     is_it.then(|| (curve, curve.inverse().applied(mine)))
 }
 
@@ -145,7 +165,8 @@ fn without_tint(mine: &RgbImage, reference: &RgbImage) -> Option<([i16; 3], RgbI
         }
         channels
     });
-    (misfit(&undone, reference) < 0.75 * misfit(mine, reference)).then_some((tint, undone))
+    let [before, after] = [mine, &undone].map(|picture| misfit(sampled(picture, reference)));
+    (after < 0.75 * before).then_some((tint, undone))
 }
 
 fn without_shift(mine: &RgbImage, reference: &RgbImage) -> Option<([i32; 2], RgbImage)> {
@@ -153,9 +174,9 @@ fn without_shift(mine: &RgbImage, reference: &RgbImage) -> Option<([i32; 2], Rgb
     let shifts = reach
         .clone()
         .flat_map(|y| reach.clone().map(move |x| [x, y]));
-    let fits = shifts.map(|shift| (shift, misfit_shifted(mine, reference, shift)));
+    let fits = shifts.map(|shift| (shift, misfit(sampled_shifted(mine, reference, shift))));
     let (shift, after) = fits.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let is_it = shift != [0, 0] && after < 0.6 * misfit_shifted(mine, reference, [0, 0]);
+    let is_it = shift != [0, 0] && after < 0.6 * misfit(sampled(mine, reference));
     is_it.then(|| (shift, shifted(mine, shift)))
 }
 
@@ -190,6 +211,21 @@ fn sampled<'a>(
     pairs.map(|(a, b)| (a.0, b.0))
 }
 
+/// The same pairs after [`shifted`] has moved the first picture.
+fn sampled_shifted<'a>(
+    a: &'a RgbImage,
+    b: &'a RgbImage,
+    [right, down]: [i32; 2],
+) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + use<'a> {
+    let (width, height) = a.dimensions();
+    let places = (0..a.as_raw().len() / 3).step_by(step(a));
+    places.map(move |i| {
+        let (x, y) = (i as u32 % width, i as u32 / width);
+        let moved = a.get_pixel(from(x, right, width), from(y, down, height));
+        (moved.0, b.get_pixel(x, y).0)
+    })
+}
+
 /// From one sampled pixel to the next.
 fn step(picture: &RgbImage) -> usize {
     let step = (picture.as_raw().len() / 3).div_ceil(ENOUGH_PIXELS);
@@ -202,31 +238,18 @@ fn largest_difference((a, b): ([u8; 3], [u8; 3])) -> f64 {
     f64::from(off.expect("a pixel has channels"))
 }
 
-/// How unlike two pictures are, in levels.
-fn misfit(a: &RgbImage, b: &RgbImage) -> f64 {
+/// How unlike pixels are, in levels.
+fn misfit(pairs: impl Iterator<Item = ([u8; 3], [u8; 3])>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for pair in sampled(a, b) {
+    for pair in pairs {
         sum += largest_difference(pair).min(CLIPPED);
         count += 1.0;
     }
     sum / count
 }
 
-/// The same of what [`shifted`] would make of the first.
-fn misfit_shifted(mine: &RgbImage, reference: &RgbImage, [right, down]: [i32; 2]) -> f64 {
-    let (width, height) = mine.dimensions();
-    let (mut sum, mut count) = (0.0, 0.0);
-    for i in (0..mine.as_raw().len() / 3).step_by(step(mine)) {
-        let (x, y) = (i as u32 % width, i as u32 / width);
-        let pixel = mine.get_pixel(from(x, right, width), from(y, down, height));
-        sum += largest_difference((pixel.0, reference.get_pixel(x, y).0)).min(CLIPPED);
-        count += 1.0;
-    }
-    sum / count
-}
-
-fn median_difference(a: &RgbImage, b: &RgbImage) -> f64 {
-    let mut all: Vec<f64> = sampled(a, b).map(largest_difference).collect();
+fn median(pairs: impl Iterator<Item = ([u8; 3], [u8; 3])>) -> f64 {
+    let mut all: Vec<f64> = pairs.map(largest_difference).collect();
     let middle = all.len() / 2;
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
@@ -302,7 +325,7 @@ mod tests {
 
     fn found(mine: RgbImage) -> (Vec<Forgiven>, f64) {
         let (mended, forgiven) = forgive(mine, &scene());
-        (forgiven, misfit(&mended, &scene()))
+        (forgiven, misfit(sampled(&mended, &scene())))
     }
 
     #[test]

@@ -12,7 +12,6 @@ use image::{DynamicImage, GrayImage, Luma, RgbImage, imageops};
 use shadowlab::compare::{Difference, Forgiven, Matching};
 use shadowlab::compare::{Shadows, forgive, resized};
 use shadowlab::diagnosis::{Diagnosis, Suspects};
-use shadowlab::gl::edits;
 use shadowlab::ground_truth::{Label, Rays};
 use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, Show};
@@ -298,16 +297,12 @@ impl CompareCommand {
         options
     }
 
-    /// Each time in a context of its own: a mistake leaves something behind.
     fn start(&self, state: &State) -> Result<Running> {
         state.start(&Drawing::on(&self.device), &[], false)
     }
 
     fn draw(&self, state: &State, with: Edits) -> Result<RgbImage> {
-        let _edited = edits::set(with);
-        let mut running = self.start(state)?;
-        running.draw(1, Show::Picture)?;
-        Ok(gl::read_rgb(&running.context.gl, running.size))
+        state.picture(&self.device, with)
     }
 
     /// Without shadows.
@@ -346,7 +341,9 @@ impl CompareCommand {
             }
         }
         let map = running.lab.shadow_texture(light).ok().map(|map| map.scale);
-        let (figures, mistakes) = Measure::new(&rays, &truth).measure(&filled, map.as_ref());
+        let (mut figures, mistakes) = Measure::new(&rays, &truth).measure(&filled, map.as_ref());
+        // The lab's, not the picture's.
+        figures.bias = None;
         Ok(Some(Read {
             judged,
             figures,
