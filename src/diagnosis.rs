@@ -99,8 +99,11 @@ impl Suspects {
             if strict {
                 return range.share_outside(mine);
             }
-            let (mine, _) = forgive(mine.clone(), picture);
-            range.share_outside(&mine)
+            let found = forgive(mine.clone(), picture);
+            match &found.darkened_reference {
+                Some(darkened) => Envelope::new(darkened).share_outside(&found.mine),
+                None => range.share_outside(&found.mine),
+            }
         };
         let wrong = left(&self.right, &self.right_range);
         if wrong <= SAME {

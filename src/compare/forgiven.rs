@@ -57,31 +57,61 @@ pub fn resized(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     imageops::resize(picture, width, height, FilterType::CatmullRom)
 }
 
+/// A picture after everything was forgiven that is no mistake.
+pub struct Forgiving {
+    pub mine: RgbImage,
+    pub forgiven: Vec<Forgiven>,
+    /// The reference as `mine` is to be compared with it: a picture that was darkened has lost levels that nothing brings
+    /// back, so the reference is darkened, too.
+    pub darkened_reference: Option<RgbImage>,
+    darkened: Option<Curve>,
+}
+
+impl Forgiving {
+    /// The picture in the reference's own curve.
+    pub fn brightened(&self) -> RgbImage {
+        match self.darkened {
+            Some(curve) => curve.inverse().applied(&self.mine),
+            None => self.mine.clone(),
+        }
+    }
+}
+
 /// Makes a picture as like to a reference of the same size as can be done without touching its shadows, and says what
 /// was done.
-pub fn forgive(mine: RgbImage, reference: &RgbImage) -> (RgbImage, Vec<Forgiven>) {
+pub fn forgive(mine: RgbImage, reference: &RgbImage) -> Forgiving {
     assert_eq!(mine.dimensions(), reference.dimensions());
-    let mut mine = mine;
-    let mut forgiven = Vec::new();
+    let mut found = Forgiving {
+        mine,
+        forgiven: Vec::new(),
+        darkened_reference: None,
+        darkened: None,
+    };
 
-    let turned = imageops::flip_vertical(&mine);
-    if correlation(&turned, reference) > correlation(&mine, reference) + CLEARLY {
-        mine = turned;
-        forgiven.push(Forgiven::UpsideDown);
+    let turned = imageops::flip_vertical(&found.mine);
+    if correlation(&turned, reference) > correlation(&found.mine, reference) + CLEARLY {
+        found.mine = turned;
+        found.forgiven.push(Forgiven::UpsideDown);
     }
-    if let Some((curve, undone)) = without_curve(&mine, reference) {
-        mine = undone;
-        forgiven.push(Forgiven::Curve(curve));
+    if let Some(curve) = curve_of(&found.mine, reference) {
+        found.forgiven.push(Forgiven::Curve(curve));
+        if curve.darkens() {
+            found.darkened = Some(curve);
+            found.darkened_reference = Some(curve.applied(reference));
+        } else {
+            found.mine = curve.inverse().applied(&found.mine);
+        }
     }
-    if let Some((tint, undone)) = without_tint(&mine, reference) {
-        mine = undone;
-        forgiven.push(Forgiven::Tint(tint));
+    let reference = found.darkened_reference.as_ref().unwrap_or(reference);
+    if let Some((tint, undone)) = without_tint(&found.mine, reference) {
+        found.mine = undone;
+        found.forgiven.push(Forgiven::Tint(tint));
     }
-    if let Some((shift, undone)) = without_shift(&mine, reference) {
-        mine = undone;
-        forgiven.push(Forgiven::Shift(shift));
+    if let Some((shift, undone)) = without_shift(&found.mine, reference) {
+        found.mine = undone;
+        found.forgiven.push(Forgiven::Shift(shift));
     }
-    (mine, forgiven)
+    found
 }
 
 /// How unlike two pictures are at a glance, in levels, whatever their curves: what tells which of many to look at.
@@ -125,16 +155,19 @@ fn with<'a>(
     sampled(mine, reference).map(move |(a, b)| (a, b.map(|value| table[usize::from(value)])))
 }
 
-/// The curve is put on the reference, not undone in mine: where a curve is flat, undoing it tears levels apart.
-fn without_curve(mine: &RgbImage, reference: &RgbImage) -> Option<(Curve, RgbImage)> {
+fn curve_of(mine: &RgbImage, reference: &RgbImage) -> Option<Curve> {
     let fits = CURVES.map(|curve| (curve, misfit(with(mine, reference, curve))));
     let (curve, after) = fits.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let is_it = after < misfit(sampled(mine, reference)) / 2.0
         && median(with(mine, reference, curve)) <= UNDONE;
-    is_it.then(|| (curve, curve.inverse().applied(mine)))
+    is_it.then_some(curve)
 }
 
 impl Curve {
+    fn darkens(self) -> bool {
+        matches!(self, Self::Darkened | Self::SrgbDecoded)
+    }
+
     fn inverse(self) -> Self {
         match self {
             Self::Darkened => Self::Brightened,
@@ -324,8 +357,9 @@ mod tests {
     }
 
     fn found(mine: RgbImage) -> (Vec<Forgiven>, f64) {
-        let (mended, forgiven) = forgive(mine, &scene());
-        (forgiven, misfit(sampled(&mended, &scene())))
+        let found = forgive(mine, &scene());
+        let reference = found.darkened_reference.unwrap_or_else(scene);
+        (found.forgiven, misfit(sampled(&found.mine, &reference)))
     }
 
     #[test]

@@ -12,5 +12,5 @@ mod forgiven;
 mod shadows;
 
 pub use difference::{Difference, Envelope, Matching, SAME, TOLERANCE, heat_map};
-pub use forgiven::{Forgiven, forgive, resized, unlikeness};
+pub use forgiven::{Forgiven, Forgiving, forgive, resized, unlikeness};
 pub use shadows::Shadows;

@@ -17,7 +17,7 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, Show};
 use shadowlab::measure::Measure;
 use shadowlab::mistakes::{self, Edits};
-use shadowlab::scene::texture;
+use shadowlab::scene::{reading, texture};
 use shadowlab::{Error, Result, gl, picture};
 
 use super::print;
@@ -143,18 +143,15 @@ impl CompareCommand {
             }
         };
         let given = mine.clone();
-        let mine = if self.strict {
-            mine
+        let (difference, mine) = if self.strict {
+            (Difference::new(&mine, &right, Matching::Exact), mine)
         } else {
-            let (mine, more) = forgive(mine, &right);
-            forgiven.extend(more);
-            mine
+            let found = forgive(mine, &right);
+            let reference = found.darkened_reference.as_ref().unwrap_or(&right);
+            let difference = Difference::new(&found.mine, reference, Matching::WithinAPixel);
+            forgiven.extend(&found.forgiven);
+            (difference, found.brightened())
         };
-        let matching = match self.strict {
-            true => Matching::Exact,
-            false => Matching::WithinAPixel,
-        };
-        let difference = Difference::new(&mine, &right, matching);
         let diagnosis = match difference.is_same() {
             true => Diagnosis::Right,
             false => Suspects::new(handout.name, |edits| self.draw(&state, edits))?
@@ -203,7 +200,7 @@ impl CompareCommand {
         let mut forgiven = Vec::new();
         let (mut mine, mut without) = (mine, without);
         if !self.strict {
-            (_, forgiven) = forgive(without.clone(), &lit);
+            forgiven = forgive(without.clone(), &lit).forgiven;
             // Their shading is not looked at, and their curve is the same in both.
             forgiven.retain(|found| *found == Forgiven::UpsideDown);
         }
@@ -235,7 +232,12 @@ impl CompareCommand {
 
     /// A picture, as far as it is asked for, and what is odd about it.
     fn load(&self, path: &Path) -> Result<(RgbImage, Vec<String>)> {
-        let picture = texture::load(path)?;
+        let bytes = reading::read(path, reading::PICTURE_LIMIT)?;
+        let picture = texture::decode(path, &bytes, texture::MOST_BYTES)?;
+        if is_cut_off(&bytes) {
+            let message = "found a JPEG that is cut off, expected a whole one";
+            return Err(Error::input(path, None, message));
+        }
         let mut notes = Vec::new();
         if picture.pixels().any(|pixel| pixel.0[3] < 255) {
             notes.push(format!(
@@ -350,4 +352,13 @@ impl CompareCommand {
             mistakes,
         }))
     }
+}
+
+/// A JPEG ends with a marker of its own, behind the last of those that begin a scan; decoders fill up what is missing.
+fn is_cut_off(bytes: &[u8]) -> bool {
+    const START: [u8; 2] = [0xff, 0xd8];
+    const SCAN: [u8; 2] = [0xff, 0xda];
+    const END: [u8; 2] = [0xff, 0xd9];
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    bytes.starts_with(&START) && last(END) < last(SCAN)
 }
