@@ -180,13 +180,10 @@ mod egl {
 
         fn on(device: &EglDevice, size: [u32; 2], record: bool) -> Result<Self> {
             let egl = make_current(device, size)?;
-            let gl = unsafe {
-                let find = |name: &CStr| egl.display.get_proc_address(name);
-                if record {
-                    trace::recorded(find)
-                } else {
-                    glow::Context::from_loader_function_cstr(find)
-                }
+            let find = |name: &CStr| egl.display.get_proc_address(name);
+            let gl = match record {
+                true => trace::recorded(find),
+                false => trace::edited(find),
             };
             check_limits(&gl, size)?;
             let [renderer, version] = [glow::RENDERER, glow::VERSION]

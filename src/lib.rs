@@ -8,6 +8,9 @@
 //! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
 //! | [`ground_truth`] | what is in shadow in truth: rays in f64, which know no lab |
 //! | [`measure`] | a visibility picture against the truth, in figures |
+//! | [`compare`] | a student's picture against a reference: what is forgiven, what differs, where its shadows are |
+//! | [`mistakes`] | the classic mistakes, as edits of shaders, uniforms and calls |
+//! | [`diagnosis`] | which mistake explains a picture |
 //! | [`hard`] | scenes on which shadow tests are known to break, and what must come of each test |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
 //! | [`report`] | speed against error: settings held against each other |
@@ -20,6 +23,8 @@
 //! `shadow_tests` and `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
+pub mod compare;
+pub mod diagnosis;
 pub mod error;
 pub mod gl;
 pub mod ground_truth;
@@ -27,6 +32,7 @@ pub mod hard;
 pub mod headless;
 pub mod labs;
 pub mod measure;
+pub mod mistakes;
 pub mod picture;
 pub mod progress;
 pub mod report;

@@ -21,10 +21,15 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(wrong) => fail(&one_line(&wrong), 2),
-        Ok(command) => match command.run() {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => fail(&error.to_string(), error.exit_code()),
-        },
+        Ok(command) => {
+            let trouble = command.trouble_code();
+            command.run().unwrap_or_else(|error| {
+                fail(
+                    &error.to_string(),
+                    trouble.unwrap_or_else(|| error.exit_code()),
+                )
+            })
+        }
     }
 }
 

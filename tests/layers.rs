@@ -27,6 +27,9 @@ const ROOMS: &[Room] = &[
             "headless",
             "window",
             "report",
+            "diagnosis",
+            "mistakes",
+            "compare",
             "hard",
             "measure",
             "ground_truth",
@@ -67,6 +70,27 @@ const ROOMS: &[Room] = &[
             "progress",
             "error",
         ],
+        crates: &[],
+        may_be_unsafe: false,
+    },
+    // Holds a picture against those that somebody draws for it; knows no GL.
+    Room {
+        name: "diagnosis",
+        imports: &["mistakes", "compare", "error"],
+        crates: &[],
+        may_be_unsafe: false,
+    },
+    // Edits of what goes through `gl`; knows the labs by their names only.
+    Room {
+        name: "mistakes",
+        imports: &["gl", "error"],
+        crates: &["glow"],
+        may_be_unsafe: false,
+    },
+    // Two pictures: needs no GL, and knows no lab.
+    Room {
+        name: "compare",
+        imports: &[],
         crates: &[],
         may_be_unsafe: false,
     },

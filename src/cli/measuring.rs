@@ -102,6 +102,7 @@ impl Asked {
 impl TruthCommand {
     pub fn run(&self) -> Result<()> {
         self.output.check(&self.state.lab)?;
+        self.state.changes.refuse_mistake("truth")?;
         let running = self.state.start(&self.drawing, &[], false)?;
         let asked = ask(&running, self.output.light)?;
         let truth = &asked.truth;

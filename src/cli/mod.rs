@@ -1,7 +1,9 @@
 //! The commands and their options.
 
+mod compare;
 mod gallery;
 mod measuring;
+mod mistakes;
 mod report;
 mod screenshot;
 mod state;
@@ -9,6 +11,7 @@ mod timings;
 mod values;
 
 use std::io::Write;
+use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
@@ -48,6 +51,10 @@ enum Command {
     Truth(measuring::TruthCommand),
     /// Hold the lab's shadows, or a visibility picture, against the truth
     Measure(measuring::MeasureCommand),
+    /// Hold my own program's picture against the lab's, and tell which mistake explains it
+    Compare(compare::CompareCommand),
+    /// Show the classic mistakes, each beside the right picture: a page
+    Mistakes(mistakes::MistakesCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
     Report(report::ReportCommand),
     /// List the labs with their keys and settings
@@ -117,18 +124,26 @@ struct Place {
 }
 
 impl Cli {
-    pub fn run(self) -> Result<()> {
+    pub fn run(self) -> Result<ExitCode> {
         match self.command {
+            Command::Compare(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
             Command::Explain(options) => options.run(),
             Command::Truth(options) => options.run(),
             Command::Measure(options) => options.run(),
+            Command::Mistakes(options) => options.run(),
             Command::Report(options) => options.run(),
             Command::Labs => print(&labs_text()),
             Command::Devices => print(&devices_text()?),
-        }
+        }?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
+    pub fn trouble_code(&self) -> Option<u8> {
+        matches!(self.command, Command::Compare(_)).then_some(compare::TROUBLE)
     }
 }
 
@@ -136,6 +151,7 @@ impl ViewOptions {
     fn run(self) -> Result<()> {
         let state = self.state;
         let handout = labs::find(&state.lab)?;
+        let _mistake = state.make_mistake()?;
         let inputs = parse_keys(&state.changes.keys)?;
         let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
         window::open(View {
@@ -183,6 +199,7 @@ impl Explain {
             (None, None) => unreachable!("clap asks for one of them"),
         };
         check_light(labs::find(&self.state.lab)?, self.light)?;
+        self.state.changes.refuse_mistake("explain")?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running
@@ -206,6 +223,10 @@ fn labs_text() -> String {
             let (default, expected) = (setting.kind.default_text(), setting.kind.expected());
             text += &format!("    {:21}{}\n", setting.name, setting.help);
             text += &format!("    {:21}{expected}; default {default}\n", "");
+        }
+        text += "\n  mistakes (--mistake NAME)\n";
+        for (mistake, _) in shadowlab::mistakes::of_lab(lab.name) {
+            text += &format!("    {:22}{}\n", mistake.name, mistake.symptom);
         }
         let cases: Vec<_> = hard::cases().filter(|case| case.lab == lab.name).collect();
         if !cases.is_empty() {

@@ -31,7 +31,7 @@ pub struct Screenshot {
     light: usize,
     /// Draw every lab in every stage of its handout into this folder, with an index page
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "lab", "output", "show", "light", "scene", "set", "keys", "time", "glsl", "frames", "timings",
+        "lab", "output", "show", "light", "scene", "set", "keys", "time", "glsl", "mistake", "frames", "timings",
     ])]
     all: Option<PathBuf>,
 }

@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use image::RgbImage;
 use shadowlab::gl;
+use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
+use shadowlab::mistakes;
 use shadowlab::scene::{self, Scene};
 use shadowlab::{Error, Result};
 
@@ -58,6 +61,9 @@ pub struct Changes {
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     pub glsl: Option<PathBuf>,
+    /// Make one of the classic mistakes; `shadowlab labs` lists those that a lab can make
+    #[arg(long, value_name = "NAME", conflicts_with = "glsl")]
+    mistake: Option<String>,
 }
 
 /// How frames are drawn without a display.
@@ -104,7 +110,22 @@ impl Changes {
 
     /// Whether one of them has a meaning for one lab only.
     pub fn are_of_one_lab(&self) -> bool {
-        self.scene.is_some() || self.glsl.is_some() || !self.set.is_empty() || !self.keys.is_empty()
+        self.scene.is_some()
+            || self.glsl.is_some()
+            || !self.set.is_empty()
+            || !self.keys.is_empty()
+            || self.mistake.is_some()
+    }
+
+    /// A command that is about the lab as it is refuses mistakes.
+    pub fn refuse_mistake(&self, command: &str) -> Result<()> {
+        match &self.mistake {
+            None => Ok(()),
+            Some(name) => Err(Error::usage(format!(
+                "--mistake {name}: {command} is about the lab without mistakes, expected view, screenshot, trace or \
+                 measure"
+            ))),
+        }
     }
 
     /// Whether the setting of that name is given a value.
@@ -126,6 +147,7 @@ pub struct Running {
     pub size: [u32; 2],
     // Last: it counts their end, too.
     pub timings: Timings,
+    _mistake: Option<Edited>,
 }
 
 impl State {
@@ -134,6 +156,7 @@ impl State {
         let mut timings = Timings::new(drawing.timings);
         let handout = labs::find(&self.lab)?;
         parse_keys(&self.changes.keys)?;
+        let mistake = self.make_mistake()?;
         // A scene file says the size that the context must have, so it goes first.
         let students_scene = self.students_scene()?;
         let scene_size = students_scene.as_ref().and_then(|scene| scene.size);
@@ -165,7 +188,25 @@ impl State {
             name: handout.name,
             size,
             timings,
+            _mistake: mistake,
         })
+    }
+
+    /// The lab's picture, drawn in a context of its own: a mistake leaves something behind.
+    pub fn picture(&self, device: &Choice, with: Edits) -> Result<RgbImage> {
+        let _edited = edits::set(with);
+        let mut running = self.start(&Drawing::on(device), &[], false)?;
+        running.draw(1, Show::Picture)?;
+        Ok(gl::read_rgb(&running.context.gl, running.size))
+    }
+
+    /// Makes the mistake that is asked for, until what is returned is dropped.
+    pub fn make_mistake(&self) -> Result<Option<Edited>> {
+        let Some(name) = &self.changes.mistake else {
+            return Ok(None);
+        };
+        let (_, made) = mistakes::find(name, &self.lab)?;
+        Ok(Some(edits::set(made.edits)))
     }
 
     /// The options but for size, keys and time, as another command line would repeat them.
@@ -182,6 +223,9 @@ impl State {
         }
         if let Some(folder) = &self.changes.glsl {
             options.extend(["--glsl".to_owned(), folder.display().to_string()]);
+        }
+        if let Some(name) = &self.changes.mistake {
+            options.extend(["--mistake".to_owned(), name.clone()]);
         }
         options
     }

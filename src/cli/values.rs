@@ -34,6 +34,15 @@ pub fn parse_size(text: &str) -> std::result::Result<[u32; 2], String> {
     })
 }
 
+pub fn parse_crop(text: &str) -> std::result::Result<[u32; 4], String> {
+    let crop = text.rsplit_once(',').and_then(|(place, size)| {
+        let [x, y] = parse_numbers::<u32, 2>(place).ok()?;
+        let [width, height] = parse_size(size).ok()?;
+        Some([x, y, width, height])
+    });
+    crop.ok_or_else(|| "expected X,Y,WIDTHxHEIGHT in pixels, for example 8,31,500x500".to_owned())
+}
+
 pub fn parse_time(text: &str) -> std::result::Result<f64, String> {
     let time: Option<f64> = text.parse().ok();
     // A NaN is in no range. In a thousand years a turn still has a millisecond's precision.

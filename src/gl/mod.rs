@@ -6,6 +6,7 @@
 #![allow(unsafe_code)]
 
 mod check;
+pub mod edits;
 mod mesh;
 mod overlay;
 mod read;
@@ -34,6 +35,7 @@ pub use uniform::Value;
 #[must_use]
 pub fn pass<'gl>(gl: &'gl glow::Context, name: &str) -> Pass<'gl> {
     trace::pass(name);
+    edits::begin_pass(name);
     if gl.supports_debug() {
         unsafe { gl.push_debug_group(glow::DEBUG_SOURCE_APPLICATION, 0, name) };
     }
@@ -50,6 +52,7 @@ pub struct Pass<'gl> {
 
 impl Drop for Pass<'_> {
     fn drop(&mut self) {
+        edits::end_pass();
         if let Some(timed) = self.timed.take() {
             timer::end(self.gl, timed);
         }

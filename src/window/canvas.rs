@@ -22,6 +22,7 @@ use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes};
 
 use super::{Api, View};
+use crate::gl::trace;
 use crate::{Error, Result};
 
 /// In Hz, where the desktop does not say.
@@ -79,8 +80,7 @@ impl Canvas {
             };
             // A renderer without a screen of its own may refuse either: the viewer keeps time by the clock too.
             let _ = surface.set_swap_interval(&context, interval);
-            let gl =
-                glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name));
+            let gl = trace::edited(|name| display.get_proc_address(name));
             Ok(Self {
                 renderer: gl.get_parameter_string(glow::RENDERER),
                 api: display.version_string(),

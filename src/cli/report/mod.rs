@@ -193,6 +193,7 @@ impl ReportCommand {
             lab: handout.name.to_owned(),
             changes: self.changes.clone(),
         };
+        self.changes.refuse_mistake("report")?;
         let mut running = state.start(&Drawing::on(&self.device), &[], true)?;
         let mut subject = Subject {
             handout,

@@ -93,9 +93,32 @@ pub(super) trait Meaning: Copy {
     fn arg(self) -> Arg;
 }
 
-/// The newtypes: `Name(what GL passes) => the meaning`.
+/// A parameter that can have another number in it. A pointer stays as it is.
+pub(super) trait Editable: Copy {
+    fn with(self, _number: i64) -> Self {
+        self
+    }
+}
+
+impl<T> Editable for *const T {}
+impl<T> Editable for *mut T {}
+
+/// The newtypes: `Name(what GL passes) => the meaning`. Those of numbers can have another number in them.
 macro_rules! meanings {
     ($($name:ident($raw:ty) => |$value:ident| $arg:expr;)*) => {$(
+        meaning!($name($raw) => |$value| $arg; number => number as $raw);
+    )*};
+}
+
+/// Those of pointers cannot.
+macro_rules! pointers {
+    ($($name:ident($raw:ty) => |$value:ident| $arg:expr;)*) => {$(
+        meaning!($name($raw) => |$value| $arg);
+    )*};
+}
+
+macro_rules! meaning {
+    ($name:ident($raw:ty) => |$value:ident| $arg:expr $(; $number:ident => $other:expr)?) => {
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(super) struct $name(pub $raw);
@@ -106,7 +129,13 @@ macro_rules! meanings {
                 $arg
             }
         }
-    )*};
+
+        impl Editable for $name {
+            $(fn with(self, $number: i64) -> Self {
+                Self($other)
+            })?
+        }
+    };
 }
 
 meanings! {
@@ -129,6 +158,9 @@ meanings! {
     Shader(u32) => |id| Arg::Object(Object::new(ObjectKind::Shader, id));
     Texture(u32) => |id| Arg::Object(Object::new(ObjectKind::Texture, id));
     VertexArray(u32) => |id| Arg::Object(Object::new(ObjectKind::VertexArray, id));
+}
+
+pointers! {
     Str(*const c_char) => |pointer| unsafe { string(pointer) };
     // The same, as glGetString returns it.
     UStr(*const u8) => |pointer| unsafe { string(pointer.cast()) };
@@ -146,6 +178,12 @@ macro_rules! numbers {
                 $arg(self.into())
             }
         }
+
+        impl Editable for $raw {
+            fn with(self, number: i64) -> Self {
+                number as $raw
+            }
+        }
     )*};
 }
 
@@ -161,6 +199,8 @@ impl Meaning for isize {
         Arg::Int(self as i64)
     }
 }
+
+impl Editable for isize {}
 
 /// Where GL puts its answers.
 impl<T> Meaning for *mut T {

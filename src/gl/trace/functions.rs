@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 
 use super::args::*;
 use super::{Call, record, watch};
+use crate::gl::edits::{self, Make};
 
 /// Makes, from the declarations below, [`FUNCTIONS`] and a shim for each of them. Where an argument's type does not
 /// say enough (how long is this array?), `= expression` says what the record shows.
@@ -26,18 +27,21 @@ macro_rules! traced {
                         type Function = unsafe extern "system" fn($($kind),*) $(-> $result)?;
                         unsafe {
                             let driver: Function = transmute(DRIVER.load(Ordering::Relaxed));
-                            let begun = watch::before_call();
-                            // First the driver, so that what it answers can be recorded.
-                            let result = driver($($arg),*);
-                            watch::after_call(begun);
-                            if watch::records() {
-                                record(Call {
-                                    name: stringify!($name),
-                                    args: vec![$(shown!($arg $(= $shown)?)),*],
-                                    result: returned!(result $(-> $result)?),
-                                });
-                            }
-                            result
+                            let call = |$($arg: $kind),*| {
+                                let begun = watch::before_call();
+                                // First the driver, so that what it answers can be recorded.
+                                let result = driver($($arg),*);
+                                watch::after_call(begun);
+                                if watch::records() {
+                                    record(Call {
+                                        name: stringify!($name),
+                                        args: vec![$(shown!($arg $(= $shown)?)),*],
+                                        result: returned!(result $(-> $result)?),
+                                    });
+                                }
+                                result
+                            };
+                            edited!($name, call, ($($arg: $kind $(= $shown)?),*) $(-> $result)?)
                         }
                     }
 
@@ -47,6 +51,36 @@ macro_rules! traced {
                 _ => null(),
             }
         }
+    };
+}
+
+/// The call, or what an edit makes of it; a function that answers is not edited.
+macro_rules! edited {
+    ($name:ident, $call:ident, ()) => {
+        $call()
+    };
+    ($name:ident, $call:ident, ($($arg:ident: $kind:ty $(= $shown:expr)?),*)) => {{
+        let edit = edits::call(stringify!($name), || vec![$(shown!($arg $(= $shown)?)),*]);
+        let with = |changes: &[(usize, i64)]| {
+            let mut places = 0..;
+            $(
+                let place = places.next().expect("a call has few arguments");
+                let $arg = edits::argument(changes, place).map_or($arg, |number| $arg.with(number));
+            )*
+            $call($($arg),*)
+        };
+        match edit {
+            None => $call($($arg),*),
+            Some(Make::Nothing) => (),
+            Some(Make::Instead(changes)) => with(changes),
+            Some(Make::Also(changes)) => {
+                $call($($arg),*);
+                with(changes)
+            }
+        }
+    }};
+    ($name:ident, $call:ident, ($($arg:ident: $kind:ty $(= $shown:expr)?),*) -> $result:ty) => {
+        $call($($arg),*)
     };
 }
 

@@ -74,6 +74,17 @@ pub fn recorded(mut loader: impl FnMut(&CStr) -> *const c_void) -> glow::Context
     };
     let gl = unsafe { glow::Context::from_loader_function_cstr(shims) };
     RECORDER.set(Some(Recorder::default()));
+    watch::start();
+    gl
+}
+
+/// A glow context whose calls are edited, where there are edits of calls, and not recorded.
+pub fn edited(mut loader: impl FnMut(&CStr) -> *const c_void) -> glow::Context {
+    if !super::edits::are_of_calls() {
+        return unsafe { glow::Context::from_loader_function_cstr(loader) };
+    }
+    let gl = recorded(&mut loader);
+    watch::stop();
     gl
 }
 

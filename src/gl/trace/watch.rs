@@ -42,6 +42,16 @@ pub fn so_far() -> Duration {
     }
 }
 
+/// From now on, nothing is recorded on this thread.
+pub(super) fn stop() {
+    WATCH.set(Watch::Nothing);
+}
+
+/// From now on, everything is.
+pub(super) fn start() {
+    WATCH.set(Watch::Record);
+}
+
 pub(super) fn records() -> bool {
     WATCH.get() == Watch::Record
 }

@@ -168,7 +168,10 @@ mod tests {
                 rest: ms,
                 shadow_pass: ms,
                 lighting: ms,
+                shadow_pass_in_gl: ms,
+                lighting_in_gl: ms,
                 outside_gl: 0.0,
+                outside_gl_ms: 0.0,
             };
             let row = Row {
                 differences: Vec::new(),

@@ -1,0 +1,135 @@
+//! One picture's page, which needs no other file.
+
+use std::io::Cursor;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use image::{ImageFormat, RgbImage};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use shadowlab::compare::heat_map;
+use shadowlab::diagnosis::{Diagnosis, Explanation};
+
+use super::judged::{Judged, difference_words, names};
+
+const STYLE: &str = "
+    body { font: 16px/1.45 sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
+    .same { background: #d9f0dd; } .different { background: #fbe3d6; }
+    .same, .different { padding: 0.5rem 0.8rem; font-weight: bold; }
+    section { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1.5rem; }
+    figure { margin: 0; } figcaption { font-size: 0.9rem; }
+    img { width: 100%; border: 1px solid #ccc; image-rendering: pixelated; }
+    dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 1rem; max-width: 60rem; }
+    dt { color: #666; } dd { margin: 0; }
+    pre { font-size: 0.85rem; overflow-x: auto; }
+    code { font-size: 0.85rem; color: #555; }
+    .red { color: #b01818; } .blue { color: #2048c0; }
+";
+
+pub fn page(judged: &Judged) -> Markup {
+    let class = if judged.is_same() {
+        "same"
+    } else {
+        "different"
+    };
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width";
+                title { (judged.name) " against " (judged.handout.name) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (judged.name) }
+                p { "Held against " (judged.handout.title) ". " code { (judged.options.join(" ")) } }
+                p class=(class) { (judged.verdict()) }
+                @if let Some(difference) = &judged.difference { p { (difference_words(difference)) } }
+                @for forgiven in &judged.forgiven { p { "Forgiven: " (forgiven) } }
+                @for note in &judged.notes { p { "Note: " (note) } }
+                (diagnosis(judged))
+                (pictures(judged))
+                @if let Some(read) = &judged.read {
+                    h2 { "The shadows against rays in f64" }
+                    p { (read.judged) " of the pixels that count can be read from the picture." }
+                    pre { (read.figures) }
+                }
+            }
+        }
+    }
+}
+
+fn diagnosis(judged: &Judged) -> Markup {
+    html! {
+        @match &judged.diagnosis {
+            None | Some(Diagnosis::Right) => {}
+            Some(Diagnosis::NoneOfThese) => {
+                h2 { "Diagnosis" }
+                p { "None of the mistakes that are known explains this picture." }
+            }
+            Some(Diagnosis::Explained(found)) => {
+                h2 { "Diagnosis" }
+                @for (rank, found) in found.iter().enumerate() { (explanation(rank, found)) }
+            }
+        }
+    }
+}
+
+fn explanation(rank: usize, found: &Explanation) -> Markup {
+    html! {
+        p {
+            @if rank > 0 { "Or: " }
+            b { (names(found)) }
+            ", which explains " (format!("{:.0} %", 100.0 * found.explained)) " of what differs."
+        }
+        @if rank == 0 {
+            @for (mistake, made) in &found.mistakes {
+                dl {
+                    dt { "mistake" } dd { (mistake.name) }
+                    dt { "looks like" } dd { (mistake.symptom) }
+                    dt { "comes from" } dd { (mistake.cause) }
+                    dt { "mended by" } dd { (mistake.fix) }
+                    dt { "handout" } dd { (made.place) }
+                }
+            }
+        }
+    }
+}
+
+fn pictures(judged: &Judged) -> Markup {
+    html! {
+        section {
+            (figure(&judged.mine, "mine", html! { "mine, after what was forgiven" }))
+            (figure(&judged.reference, "the reference", html! { "the reference" }))
+            @if judged.difference.is_some() {
+                (figure(
+                    &heat_map(&judged.mine, &judged.reference),
+                    "the difference",
+                    html! { "where they differ: black not at all, then red, yellow, white" },
+                ))
+            }
+            @if let Some(read) = &judged.read {
+                (figure(&read.mistakes, "wrong shadows", html! {
+                    "the shadows against the truth: " span.red { "false shadow" } ", " span.blue { "false light" }
+                }))
+            }
+        }
+    }
+}
+
+fn figure(picture: &RgbImage, alt: &str, caption: Markup) -> Markup {
+    let mut png = Cursor::new(Vec::new());
+    picture
+        .write_to(&mut png, ImageFormat::Png)
+        .expect("memory takes every picture");
+    let source = format!(
+        "data:image/png;base64,{}",
+        STANDARD.encode(png.into_inner())
+    );
+    html! {
+        figure {
+            img src=(source) alt=(alt);
+            figcaption { (caption) }
+        }
+    }
+}

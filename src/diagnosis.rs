@@ -1,0 +1,135 @@
+//! Which mistake explains a picture: the lab makes each of them in the same state, and the pictures are held against the
+//! student's.
+
+use image::RgbImage;
+
+use crate::Result;
+use crate::compare::{Envelope, SAME, forgive, unlikeness};
+use crate::mistakes::{self, Edits, Made, Mistake};
+
+/// A mistake explains a picture that is nearer to its own by this factor than to the right one.
+const EXPLAINS: f64 = 0.5;
+/// So much of a picture may differ from the mistake's own picture: a student's constants are not ours.
+const MOST_LEFT: f64 = 0.1;
+/// How many of the mistakes are looked at closely: those that are like the picture at a glance.
+const LOOKED_AT: usize = 8;
+/// How many explanations are told.
+const MOST_TOLD: usize = 3;
+
+/// A lab's pictures in one state: the right one, and those of the mistakes that can be seen in it.
+pub struct Suspects {
+    pub right: RgbImage,
+    right_range: Envelope,
+    /// Mistakes whose pictures are the same in this state are one group.
+    groups: Vec<Group>,
+    /// Mistakes that change no picture in this state.
+    pub unseen: Vec<&'static Mistake>,
+}
+
+struct Group {
+    mistakes: Vec<(&'static Mistake, &'static Made)>,
+    picture: RgbImage,
+    range: Envelope,
+}
+
+/// Mistakes that explain a picture.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// One, or several whose pictures are alike in this state.
+    pub mistakes: Vec<(&'static Mistake, &'static Made)>,
+    /// The share of the pixels that are as they are in the mistake's own picture.
+    pub left: f64,
+    /// How much of what differs from the right picture the mistake explains, 0…1.
+    pub explained: f64,
+}
+
+#[derive(Clone, Debug)]
+pub enum Diagnosis {
+    /// No more differs than between two right pictures.
+    Right,
+    /// The best explanation first.
+    Explained(Vec<Explanation>),
+    NoneOfThese,
+}
+
+impl Suspects {
+    /// `draw` draws the lab's picture with edits.
+    pub fn new(lab: &str, mut draw: impl FnMut(Edits) -> Result<RgbImage>) -> Result<Self> {
+        let right = draw(Edits::default())?;
+        let right_range = Envelope::new(&right);
+        let mut groups: Vec<Group> = Vec::new();
+        let mut unseen = Vec::new();
+        for (mistake, made) in mistakes::of_lab(lab) {
+            let picture = draw(made.edits)?;
+            if right_range.share_outside(&picture) <= SAME {
+                unseen.push(mistake);
+                continue;
+            }
+            let mut alike = groups
+                .iter_mut()
+                .filter(|group| group.range.share_outside(&picture) <= SAME);
+            match alike.next() {
+                Some(group) => group.mistakes.push((mistake, made)),
+                None => groups.push(Group {
+                    mistakes: vec![(mistake, made)],
+                    range: Envelope::new(&picture),
+                    picture,
+                }),
+            }
+        }
+        Ok(Self {
+            right,
+            right_range,
+            groups,
+            unseen,
+        })
+    }
+
+    /// The mistakes' names and their pictures, group by group.
+    pub fn pictures(&self) -> impl Iterator<Item = (Vec<&'static str>, &RgbImage)> {
+        self.groups.iter().map(|group| {
+            let names = group.mistakes.iter().map(|(mistake, _)| mistake.name);
+            (names.collect(), &group.picture)
+        })
+    }
+
+    /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
+    pub fn diagnose(&self, mine: &RgbImage, strict: bool) -> Diagnosis {
+        let left = |picture: &RgbImage, range: &Envelope| {
+            if strict {
+                return range.share_outside(mine);
+            }
+            let found = forgive(mine.clone(), picture);
+            match &found.darkened_reference {
+                Some(darkened) => Envelope::new(darkened).share_outside(&found.mine),
+                None => range.share_outside(&found.mine),
+            }
+        };
+        let wrong = left(&self.right, &self.right_range);
+        if wrong <= SAME {
+            return Diagnosis::Right;
+        }
+        let mut nearest: Vec<&Group> = self.groups.iter().collect();
+        nearest.sort_by_cached_key(|group| {
+            // In thousandths of a level: whole numbers have an order.
+            (1000.0 * unlikeness(mine, &group.picture)) as u64
+        });
+        let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
+            let left = left(&group.picture, &group.range);
+            Explanation {
+                mistakes: group.mistakes.clone(),
+                left,
+                explained: 1.0 - left / wrong,
+            }
+        });
+        let mut explanations: Vec<_> = explanations
+            .filter(|found| found.left <= EXPLAINS * wrong && found.left <= MOST_LEFT)
+            .collect();
+        explanations.sort_by(|a, b| a.left.total_cmp(&b.left));
+        explanations.truncate(MOST_TOLD);
+        match explanations.is_empty() {
+            true => Diagnosis::NoneOfThese,
+            false => Diagnosis::Explained(explanations),
+        }
+    }
+}
