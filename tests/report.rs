@@ -217,7 +217,7 @@ fn check_page(path: &Path) {
     assert!(page.contains("lighting, look-ups and all") && !page.contains("look-ups</li>"));
     // Each row is a disc and its rim, and has a line of the table and a thumbnail.
     assert_eq!(page.matches("<circle").count(), 2 * 6);
-    assert_eq!(page.matches("class=\"name\"").count(), 6);
+    assert_eq!(page.matches("<td class=\"name\"").count(), 6);
     let mut colors = std::collections::BTreeSet::new();
     for (at, start) in page.match_indices("data:image/png;base64,") {
         let text = page[at + start.len()..].split('"').next().unwrap();
