@@ -56,13 +56,13 @@ impl ReportCommand {
         if let Some(handout) = averages {
             self.check_soft(handout)?;
             let rounds = self.rounds.unwrap_or(soft::ROUNDS).into();
-            return self.into_folder(|| self.soft(handout, rounds));
+            return self.in_folder(|| self.soft(handout, rounds));
         }
         let tasks = self.tasks()?;
-        self.into_folder(|| self.fill(tasks))
+        self.in_folder(|| self.fill(tasks))
     }
 
-    fn into_folder(&self, fill: impl FnOnce() -> Result<()>) -> Result<()> {
+    fn in_folder(&self, fill: impl FnOnce() -> Result<()>) -> Result<()> {
         // That there can be no such folder should not be found out after minutes.
         let was_there = self.output.is_dir();
         std::fs::create_dir_all(&self.output)
