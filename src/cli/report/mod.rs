@@ -33,7 +33,7 @@ pub struct ReportCommand {
     /// [default: the lab's own comparisons]
     #[arg(long = "sweep", value_name = "NAME=VALUES")]
     sweeps: Vec<String>,
-    /// How many times each row is timed [default: 30; hard: 6; scaling: 9; eecs487: 12]
+    /// How many times each row is timed [default: 30; hard: 6; scaling: 9; eecs487: 9]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     rounds: Option<u16>,
     /// scaling: how many triangles the largest scene has [default: 1000000]

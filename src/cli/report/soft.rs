@@ -13,7 +13,7 @@ use crate::cli::print;
 use crate::cli::state::{Drawing, State};
 
 /// Enough for an interval; a frame of many lights takes its time.
-pub const ROUNDS: u16 = 12;
+pub const ROUNDS: u16 = 9;
 
 impl ReportCommand {
     pub(super) fn check_soft(&self, handout: &Handout) -> Result<()> {
