@@ -80,15 +80,22 @@ impl Topology {
     /// Whether it is the surface of solids, its faces outwards: who looks from outside sees no face from behind. (But for
     /// a surface that cuts through itself and is turned inside out there.)
     pub fn is_solid(&self) -> bool {
-        let volume = |component: &Vec<u32>| {
-            let faces = component.iter().map(|face| self.faces[*face as usize]);
-            let corners = faces.map(|face| face.map(|point| self.points[point as usize]));
-            let six_times = corners.map(|[a, b, c]| a.dot(b.cross(c)));
-            six_times.sum::<f64>()
+        let has_volume = |component: &Vec<u32>| {
+            let corners = |face: &u32| self.faces[*face as usize].map(|i| self.points[i as usize]);
+            let origin = corners(&component[0])[0];
+            let (mut sum, mut magnitude) = (0.0, 0.0);
+            for [a, b, c] in component.iter().map(corners) {
+                // Six times the volume of a tetrahedron.
+                let volume = (a - origin).dot((b - origin).cross(c - origin));
+                sum += volume;
+                magnitude += volume.abs();
+            }
+            // Where it is nothing but rounding, front and back are one.
+            sum > 1e-9 * magnitude
         };
         !self.faces.is_empty()
             && self.closed.iter().all(|closed| *closed)
-            && self.components.iter().all(|part| volume(part) > 0.0)
+            && self.components.iter().all(has_volume)
     }
 
     pub fn uses(&self, edge: usize) -> &[Use] {
