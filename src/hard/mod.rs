@@ -64,6 +64,10 @@ pub const TESTS: &[Test] = &[
     handout("csci3260", "stage=slope"),
     handout("csci3260", "stage=culling"),
     handout("csci3260", "stage=pcf"),
+    offset("cs541", "shadow_test=offset filter=nearest"),
+    offset("cs541", "shadow_test=offset"),
+    offset("csci3260", "shadow_test=offset"),
+    offset("csci3260", "shadow_test=offset stage=pcf"),
     exact("cs541"),
     exact("csci3260"),
 ];
@@ -73,6 +77,14 @@ const fn handout(lab: &'static str, settings: &'static str) -> Test {
         lab,
         settings,
         rule: Expected::Shown,
+    }
+}
+
+const fn offset(lab: &'static str, settings: &'static str) -> Test {
+    Test {
+        lab,
+        settings,
+        rule: Expected::Holds(0, 0),
     }
 }
 

@@ -8,6 +8,7 @@ use glow::HasContext;
 
 use super::Cs541;
 use super::programs::visibility_program;
+use super::shadow_test::ShadowTest;
 use crate::Result;
 use crate::gl::{self, Program};
 use crate::scene::{Beam, Camera, Light, LightKind, Material, Object, camera, rotate};
@@ -70,28 +71,28 @@ impl Cs541 {
     }
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let _pass = gl::pass(
-            gl,
-            match exact {
-                Some(_) => "second pass: using the light buffer",
-                None => "second pass: using the shadow map",
-            },
-        );
+        let (heading, program) = match self.shadow_test() {
+            ShadowTest::Handout => (
+                "second pass: using the shadow map",
+                &self.programs.lighting,
+            ),
+            ShadowTest::Offset(offset) => (
+                "second pass: using the fitted shadow map",
+                &offset.lighting,
+            ),
+            ShadowTest::Exact(exact) => ("second pass: using the light buffer", &exact.lighting),
+        };
+        let _pass = gl::pass(gl, heading);
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         self.select_window(gl, [red, green, blue, 1.0]);
         self.draw_sky(gl);
 
-        let program = exact.map_or(&self.programs.lighting, |exact| &exact.lighting);
         let eye = self.camera().eye;
         let Light {
             position, color, ..
         } = *self.light();
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None => self.use_shadow_map(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         program.set(gl, "usampler", 0);
         program.set(gl, "eye_position", DVec3::ZERO);
         program.set(gl, "light_position", position - eye);
@@ -112,9 +113,7 @@ impl Cs541 {
             }
             let model = self.model_from(eye, object);
             program.set(gl, "model_matrix", model);
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index);
-            }
+            self.set_shadow_test(gl, program, index);
             program.set(
                 gl,
                 "normal_matrix",
@@ -128,25 +127,22 @@ impl Cs541 {
     }
 
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
-        if self.visibility.is_none() && !self.is_exact() {
+        if self.visibility.is_none() && matches!(self.shadow_test(), ShadowTest::Handout) {
             self.visibility = Some(visibility_program(gl, &self.shaders)?);
         }
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let visibility = exact.map(|exact| &exact.visibility);
-        let program = visibility.or(self.visibility.as_ref()).expect("made above");
+        let program = match self.shadow_test() {
+            ShadowTest::Handout => self.visibility.as_ref().expect("made above"),
+            ShadowTest::Offset(offset) => &offset.visibility,
+            ShadowTest::Exact(exact) => &exact.visibility,
+        };
         let _pass = gl::pass(gl, "second pass: the shadow test alone");
         self.select_window(gl, [1.0; 4]);
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None => self.use_shadow_map(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         let eye = self.camera().eye;
         for (index, object) in self.scene.objects.iter().enumerate() {
             program.set(gl, "model_matrix", self.model_from(eye, object));
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index);
-            }
+            self.set_shadow_test(gl, program, index);
             self.meshes[index].draw(gl);
         }
         Ok(())

@@ -29,7 +29,7 @@ mod builder;
 mod caster;
 mod gpu;
 mod grid;
-mod polygon;
+pub(super) mod polygon;
 mod space;
 mod topology;
 
