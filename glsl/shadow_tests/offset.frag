@@ -11,7 +11,7 @@ uniform vec2 fitted_map_depths;
 
 // Which texels are asked: the one around the point, the four around it by their distance, or the point's own and one on
 // each side.
-const int OWN = 0, FOUR = 1, CROSS = 2;
+const ivec2 CROSS[5] = ivec2[](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 uniform int fitted_map_taps;
 
 // `slope` is what the surface gains in depth from texel to texel, across and up.
@@ -31,26 +31,23 @@ float light_share(vec2 place, float nearness, vec2 nearness_slope)
     vec2 within = (place - fitted_map_rectangle.xy) * fitted_map_rectangle.zw;
     // Where there is no map there is no caster.
     if (any(lessThan(within, vec2(0))) || any(greaterThan(within, vec2(textureSize(fitted_map, 0)))))
-        return 1;
+        return 1.0;
     float depth = fitted_map_depths.x - fitted_map_depths.y * nearness;
     vec2 slope = -fitted_map_depths.y * nearness_slope / fitted_map_rectangle.zw;
 
-    ivec2 own = ivec2(within);
-    if (fitted_map_taps == OWN)
-        return is_lit(own, within, depth, slope) ? 1 : 0;
-    if (fitted_map_taps == FOUR) {
-        ivec2 corner = ivec2(floor(within - 0.5));
-        vec4 lit = vec4(
-            is_lit(corner, within, depth, slope), is_lit(corner + ivec2(1, 0), within, depth, slope),
-            is_lit(corner + ivec2(0, 1), within, depth, slope), is_lit(corner + 1, within, depth, slope));
-        vec2 share = fract(within - 0.5);
-        vec2 row = mix(lit.xz, lit.yw, share.x);
-        return mix(row.x, row.y, share.y);
+
+    // Of four texels the first is the one to the lower left; of the others it is the point's own.
+    bool four = fitted_map_taps == 4;
+    vec2 first = floor(four ? within - 0.5 : within);
+    vec2 share = within - 0.5 - first;
+    float lit = 0;
+    for (int tap = 0; tap < fitted_map_taps; tap++) {
+        ivec2 away = four ? ivec2(tap & 1, tap >> 1) : CROSS[tap];
+        float weight = four ? (away.x == 1 ? share.x : 1 - share.x) * (away.y == 1 ? share.y : 1 - share.y) : 1.0 / fitted_map_taps;
+        if (is_lit(ivec2(first) + away, within, depth, slope))
+            lit += weight;
     }
-    vec4 lit = vec4(
-        is_lit(own - ivec2(1, 0), within, depth, slope), is_lit(own + ivec2(1, 0), within, depth, slope),
-        is_lit(own - ivec2(0, 1), within, depth, slope), is_lit(own + ivec2(0, 1), within, depth, slope));
-    return (dot(lit, vec4(1)) + (is_lit(own, within, depth, slope) ? 1 : 0)) / 5;
+    return lit;
 }
 
 // A light that shines from the origin. `normal_lcs` is that of the triangle, of any length and either way round: a
@@ -58,7 +55,7 @@ float light_share(vec2 place, float nearness, vec2 nearness_slope)
 float light_share_of_source(vec3 position_lcs, vec3 normal_lcs)
 {
     if (position_lcs.z >= 0)
-        return 1;
+        return 1.0;
     float nearness = -1 / position_lcs.z;
     vec2 slope = normal_lcs.xy / dot(normal_lcs, position_lcs);
     return light_share(position_lcs.xy * nearness, nearness, slope);

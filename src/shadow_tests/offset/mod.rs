@@ -73,9 +73,9 @@ impl Taps {
 
     fn number(self) -> i32 {
         match self {
-            Self::Own => 0,
-            Self::Four => 1,
-            Self::Cross => 2,
+            Self::Own => 1,
+            Self::Four => 4,
+            Self::Cross => 5,
         }
     }
 }
