@@ -6,13 +6,12 @@
 uniform sampler2D fitted_map;
 // What the map lies over: its corner, and how many texels there are to a unit, across and up.
 uniform vec4 fitted_map_rectangle;
-// The depth that the map has of a nearness: x - y*nearness. Nearness is 1/depth or, where rays are parallel, z.
-uniform vec2 fitted_map_depths;
+// The depth that the map has of a nearness: x - y*nearness. Nearness is 1/depth or, where rays are parallel, z. And y for
+// a gain in nearness, across and up, in depth per texel.
+uniform vec4 fitted_map_depths;
 
-// Which texels are asked: the one around the point, the four around it by their distance, or the point's own and one on
-// each side.
-const ivec2 CROSS[5] = ivec2[](ivec2(0, 0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
-uniform int fitted_map_taps;
+// Which texels are asked: offset_one.frag, offset_four.frag or offset_five.frag.
+float share_of_texels(vec2 within, float depth, vec2 slope);
 
 // `slope` is what the surface gains in depth from texel to texel, across and up.
 bool is_lit(ivec2 texel, vec2 within, float depth, vec2 slope)
@@ -33,21 +32,10 @@ float light_share(vec2 place, float nearness, vec2 nearness_slope)
     if (any(lessThan(within, vec2(0))) || any(greaterThan(within, vec2(textureSize(fitted_map, 0)))))
         return 1.0;
     float depth = fitted_map_depths.x - fitted_map_depths.y * nearness;
-    vec2 slope = -fitted_map_depths.y * nearness_slope / fitted_map_rectangle.zw;
+    vec2 slope = -fitted_map_depths.zw * nearness_slope;
 
 
-    // Of four texels the first is the one to the lower left; of the others it is the point's own.
-    bool four = fitted_map_taps == 4;
-    vec2 first = floor(four ? within - 0.5 : within);
-    vec2 share = within - 0.5 - first;
-    float lit = 0;
-    for (int tap = 0; tap < fitted_map_taps; tap++) {
-        ivec2 away = four ? ivec2(tap & 1, tap >> 1) : CROSS[tap];
-        float weight = four ? (away.x == 1 ? share.x : 1 - share.x) * (away.y == 1 ? share.y : 1 - share.y) : 1.0 / fitted_map_taps;
-        if (is_lit(ivec2(first) + away, within, depth, slope))
-            lit += weight;
-    }
-    return lit;
+    return share_of_texels(within, depth, slope);
 }
 
 // A light that shines from the origin. `normal_lcs` is that of the triangle, of any length and either way round: a

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 use glow::HasContext;
 
 /// A uniform of one program.
@@ -39,7 +39,6 @@ pub enum Value {
     Mat3([f32; 9]),
     Vec4([f32; 4]),
     Vec3([f32; 3]),
-    Vec2([f32; 2]),
     Float(f32),
     /// Samplers (their texture unit), choices and, as 0 or 1, `bool`s.
     Int(i32),
@@ -53,7 +52,6 @@ impl Value {
                 Self::Mat3(columns) => gl.uniform_matrix_3_f32_slice(location, false, &columns),
                 Self::Vec4([x, y, z, w]) => gl.uniform_4_f32(location, x, y, z, w),
                 Self::Vec3([x, y, z]) => gl.uniform_3_f32(location, x, y, z),
-                Self::Vec2([x, y]) => gl.uniform_2_f32(location, x, y),
                 Self::Float(value) => gl.uniform_1_f32(location, value),
                 Self::Int(value) => gl.uniform_1_i32(location, value),
             }
@@ -82,12 +80,6 @@ impl From<DVec4> for Value {
 impl From<DVec3> for Value {
     fn from(vector: DVec3) -> Self {
         Self::Vec3(vector.as_vec3().to_array())
-    }
-}
-
-impl From<DVec2> for Value {
-    fn from(vector: DVec2) -> Self {
-        Self::Vec2(vector.as_vec2().to_array())
     }
 }
 

@@ -64,7 +64,6 @@ pub const TESTS: &[Test] = &[
     handout("csci3260", "stage=slope"),
     handout("csci3260", "stage=culling"),
     handout("csci3260", "stage=pcf"),
-    offset("cs541", "shadow_test=offset filter=nearest"),
     offset("cs541", "shadow_test=offset"),
     offset("csci3260", "shadow_test=offset"),
     offset("csci3260", "shadow_test=offset stage=pcf"),

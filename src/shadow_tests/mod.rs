@@ -9,6 +9,13 @@
 
 pub mod exact;
 pub mod offset;
+mod placed;
+mod polygon;
+mod space;
+mod topology;
+
+pub use placed::Placed;
+pub use space::{LightSpace, Rays};
 
 /// The tests as GLSL functions: fragment shader files without a `main`, for a lab's [`crate::gl::Shaders`].
 pub const SHADERS: &[(&str, &str)] = &[
@@ -19,5 +26,13 @@ pub const SHADERS: &[(&str, &str)] = &[
     (
         offset::SHADER,
         include_str!("../../glsl/shadow_tests/offset.frag"),
+    ),
+    (
+        "shadow_tests/offset_one.frag",
+        include_str!("../../glsl/shadow_tests/offset_one.frag"),
+    ),
+    (
+        "shadow_tests/offset_five.frag",
+        include_str!("../../glsl/shadow_tests/offset_five.frag"),
     ),
 ];

@@ -11,7 +11,10 @@ use super::Cs541;
 use super::programs::{offset_lighting_program, offset_visibility_program};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::offset::{OffsetTest, Taps, UNITS};
+use crate::shadow_tests::offset::{Casts, Fit, OffsetTest, Taps, UNITS};
+
+/// A filter, of depths or of tests, costs more than the handout's whole test, and makes no shadow truer.
+pub const TAPS: Taps = Taps::One;
 
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Offset {
@@ -41,7 +44,8 @@ impl Offset {
 
 fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let lighting = offset_lighting_program(gl, shaders)?;
-    let visibility = offset_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
+    let visibility =
+        offset_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
     Ok([lighting, visibility])
 }
 
@@ -55,16 +59,11 @@ impl Cs541 {
         if self.renew_shadow_buffer(gl)? {
             offset.test.forget();
         }
-        // As large as a linear filter's, its four texels are compared each, and not mixed before.
-        let taps = match self.settings.choice("filter") {
-            "nearest" => Taps::Own,
-            _ => Taps::Four,
-        };
         let redraw = self.settings.choice("redraw") == "every_frame";
         let size = self.shadow_buffer.kind.size;
         let (light, scene) = (self.set_light(), self.placed());
-        if offset.test.prepare(&light, scene, size, taps, redraw) {
-            self.draw_fitted_map(gl, &offset.test);
+        if offset.test.prepare(&light, scene, size, TAPS, redraw) {
+            self.draw_fitted_map(gl, &offset);
             // The handout's map is no more.
             self.drawn = None;
         }
@@ -72,35 +71,46 @@ impl Cs541 {
         Ok(())
     }
 
-    fn draw_fitted_map(&self, gl: &glow::Context, test: &OffsetTest) {
+    fn draw_fitted_map(&self, gl: &glow::Context, offset: &Offset) {
         let _pass = gl::pass(gl, "first pass: drawing the fitted shadow map");
         let (program, buffer) = (&self.programs.shadow, &self.shadow_buffer);
         let size = buffer.kind.size as i32;
-        let fit = test.fit();
+        let fit = offset.test.fit();
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(buffer.frame_buffer));
             gl.viewport(0, 0, size, size);
             gl.use_program(Some(program.handle));
             gl.clear(glow::DEPTH_BUFFER_BIT);
             gl.enable(glow::POLYGON_OFFSET_FILL);
-            gl.polygon_offset(test.taps().factor(), UNITS);
+            gl.polygon_offset(TAPS.factor(), UNITS);
             // What is nearer than near casts all the same.
             gl.enable(glow::DEPTH_CLAMP);
 
             program.set(gl, "persp_matrix", fit.projection());
             program.set(gl, "view_matrix", DMat4::IDENTITY);
-            let objects = self.scene.objects.iter().zip(&fit.casts);
-            for ((object, casts), mesh) in objects.zip(&self.meshes) {
-                if *casts {
-                    let model = object.model(self.time);
-                    program.set(gl, "model_matrix", fit.space.from_object(model));
-                    mesh.draw(gl);
-                }
+            // Solids first: their back faces are never nearest.
+            if fit.casts.contains(&Casts::FrontFaces) {
+                gl.enable(glow::CULL_FACE);
+                gl.cull_face(glow::BACK);
+                self.draw_casters(gl, fit, Casts::FrontFaces);
+                gl.disable(glow::CULL_FACE);
             }
+            self.draw_casters(gl, fit, Casts::BothFaces);
 
             gl.disable(glow::DEPTH_CLAMP);
             gl.disable(glow::POLYGON_OFFSET_FILL);
             gl.bind_framebuffer(glow::FRAMEBUFFER, None);
+        }
+    }
+
+    fn draw_casters(&self, gl: &glow::Context, fit: &Fit, wanted: Casts) {
+        let objects = self.scene.objects.iter().zip(&self.meshes);
+        for ((object, mesh), casts) in objects.zip(&fit.casts) {
+            if *casts == wanted {
+                let model = fit.space.from_object(object.model(self.time));
+                self.programs.shadow.set(gl, "model_matrix", model);
+                mesh.draw(gl);
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! "Vertex and fragment shaders": which files make which program, and what is set in it.
 
+use super::offset_test::TAPS;
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
@@ -53,6 +54,7 @@ pub const SHADERS: &[(&str, &str)] = &[
     ),
     shadow_tests::SHADERS[0],
     shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
     ("unlit.vert", include_str!("../../../glsl/cs541/unlit.vert")),
     ("unlit.frag", include_str!("../../../glsl/cs541/unlit.frag")),
 ];
@@ -195,7 +197,7 @@ fn offset_program(
     fragment: &str,
     others: &[&'static str],
 ) -> Result<Program> {
-    let fragments = [fragment, offset::SHADER];
+    let fragments = [fragment, offset::SHADER, TAPS.shader()];
     let uniforms = [&MATRICES[..], &LCS_TEST, &offset::FITTED_MAP, others].concat();
     Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
 }

@@ -5,7 +5,7 @@ use super::exact_test::Exact;
 use super::offset_test::Offset;
 use crate::gl::Program;
 use crate::scene::{Light, Object};
-use crate::shadow_tests::exact::Placed;
+use crate::shadow_tests::Placed;
 use crate::{Error, Result};
 
 /// The shadow test that a frame makes.

@@ -105,6 +105,8 @@ const SHADERS: &[(&str, &str)] = &[
     ),
     shadow_tests::SHADERS[0],
     shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
+    shadow_tests::SHADERS[3],
 ];
 
 /// The numbers of the two scenes, the course's (or a student's) and the room.

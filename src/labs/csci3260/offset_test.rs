@@ -10,20 +10,22 @@ use super::Csci3260;
 use super::basic_shader::{SHADING, VERTEX_SHADER};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::offset::{self, OffsetTest, Taps, UNITS};
+use crate::shadow_tests::offset::{self, Casts, Fit, OffsetTest, Taps, UNITS};
 
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Offset {
     pub test: OffsetTest,
+    taps: Taps,
     pub basic: Program,
     pub visibility: Program,
 }
 
 impl Offset {
-    fn new(gl: &glow::Context, shaders: &Shaders) -> Result<Self> {
-        let [basic, visibility] = install(gl, shaders)?;
+    fn new(gl: &glow::Context, shaders: &Shaders, taps: Taps) -> Result<Self> {
+        let [basic, visibility] = install(gl, shaders, taps)?;
         Ok(Self {
             test: OffsetTest::default(),
+            taps,
             basic,
             visibility,
         })
@@ -31,19 +33,24 @@ impl Offset {
 
     /// Compiles the shaders again. After an error it goes on with those it had.
     pub fn reload(&mut self, gl: &glow::Context, shaders: &Shaders) -> Result<()> {
-        let [basic, visibility] = install(gl, shaders)?;
+        let [basic, visibility] = install(gl, shaders, self.taps)?;
         std::mem::replace(&mut self.basic, basic).delete(gl);
         std::mem::replace(&mut self.visibility, visibility).delete(gl);
         Ok(())
     }
+
+    fn delete(&self, gl: &glow::Context) {
+        self.basic.delete(gl);
+        self.visibility.delete(gl);
+    }
 }
 
 /// The basic shader with the offset test, and the test alone.
-fn install(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
+fn install(gl: &glow::Context, shaders: &Shaders, taps: Taps) -> Result<[Program; 2]> {
     let _pass = gl::pass(gl, "set-up: the programs with the offset test");
     let linked = |fragment: &str, others: &[&'static str]| {
         let uniforms = [&["MVP", "DepthBiasMVP"], &offset::FITTED_MAP[..], others].concat();
-        let fragments = [fragment, offset::SHADER];
+        let fragments = [fragment, offset::SHADER, taps.shader()];
         Program::linked(gl, shaders, VERTEX_SHADER, &fragments, &uniforms)
     };
     let shading = [&SHADING[..], &["normalMatrix", "lightInvDir"]].concat();
@@ -55,22 +62,28 @@ fn install(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
 impl Csci3260 {
     /// The shadow map, rendered anew if the last one does not serve on.
     pub(super) fn prepare_offset_test(&mut self, gl: &glow::Context) -> Result<()> {
+        // The slides' other remedies are in the test already, or are none of it.
+        let taps = match self.settings.choice("stage") {
+            "pcf" => Taps::Five,
+            _ => Taps::One,
+        };
         let mut offset = match self.offset.take() {
-            Some(offset) => offset,
-            None => Offset::new(gl, &self.shaders)?,
+            Some(offset) if offset.taps == taps => offset,
+            other => {
+                let made = Offset::new(gl, &self.shaders, taps)?;
+                if let Some(other) = other {
+                    other.delete(gl);
+                }
+                made
+            }
         };
         if self.renew_target(gl)? {
             offset.test.forget();
         }
-        // The slides' other remedies are in the test already, or are none of it.
-        let taps = match self.settings.choice("stage") {
-            "pcf" => Taps::Cross,
-            _ => Taps::Own,
-        };
         let redraw = self.settings.choice("redraw") == "every_frame";
         let (light, scene, size) = (self.light(), self.placed(), self.target.size);
         if offset.test.prepare(light, scene, size, taps, redraw) {
-            self.render_fitted_map(gl, &offset.test);
+            self.render_fitted_map(gl, &offset);
             // The slides' map is no more.
             self.drawn = None;
         }
@@ -78,29 +91,39 @@ impl Csci3260 {
         Ok(())
     }
 
-    fn render_fitted_map(&self, gl: &glow::Context, test: &OffsetTest) {
+    fn render_fitted_map(&self, gl: &glow::Context, offset: &Offset) {
         let _pass = gl::pass(gl, "rendering the fitted shadow map");
         let (program, target) = (&self.programs.shadow_map, &self.target);
         let size = target.size as i32;
-        let fit = test.fit();
+        let fit = offset.test.fit();
         unsafe {
             gl.use_program(Some(program.handle));
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.shadow_framebuffer));
             gl.clear(glow::DEPTH_BUFFER_BIT);
             gl.viewport(0, 0, size, size);
             gl.enable(glow::POLYGON_OFFSET_FILL);
-            gl.polygon_offset(test.taps().factor(), UNITS);
+            gl.polygon_offset(offset.taps.factor(), UNITS);
         }
+        // Solids first: their back faces are never nearest.
+        if fit.casts.contains(&Casts::FrontFaces) {
+            unsafe { gl.enable(glow::CULL_FACE) };
+            self.draw_casters(gl, fit, Casts::FrontFaces);
+            unsafe { gl.disable(glow::CULL_FACE) };
+        }
+        self.draw_casters(gl, fit, Casts::BothFaces);
+        unsafe { gl.disable(glow::POLYGON_OFFSET_FILL) };
+    }
+
+    fn draw_casters(&self, gl: &glow::Context, fit: &Fit, wanted: Casts) {
         self.draw_scene(gl, |mesh, _| {
-            let casts = fit.casts[mesh.object];
+            let casts = fit.casts[mesh.object] == wanted;
             if casts {
                 let model = self.model_matrix(&self.scene().objects[mesh.object]);
                 let depth_mvp = fit.projection() * fit.space.from_object(model);
-                program.set(gl, "depthMVP", depth_mvp);
+                self.programs.shadow_map.set(gl, "depthMVP", depth_mvp);
             }
             casts
         });
-        unsafe { gl.disable(glow::POLYGON_OFFSET_FILL) };
     }
 
     /// What every program with the offset test needs: the fitted map, on texture unit 1.

@@ -6,8 +6,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 
 use super::caster::Caster;
-use super::polygon::{PADDING, Polygon, visit_cells};
-use super::space::Rays;
+use crate::shadow_tests::polygon::{PADDING, Polygon, visit_cells};
+use crate::shadow_tests::space::Rays;
 
 /// How many cells there are for each caster: fewer make longer lists, more take longer to fill. Between 4 and 16 the frames
 /// of the labs' scenes differ by less than a tenth.

@@ -5,11 +5,11 @@
 //!
 //! | step | here |
 //! |---|---|
-//! | which vertices are one, which edges two triangles share; once for each mesh | `topology.rs` |
-//! | where the light is, and along which axes it looks | `space.rs` |
+//! | which vertices are one, which edges two triangles share; once for each mesh | `../topology.rs` |
+//! | where the light is, and along which axes it looks | `../space.rs` |
 //! | what a ray is tested against: three planes through the edges, and the triangle's own | `caster.rs` |
 //! | which triangles can cast onto something | `builder.rs` |
-//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `polygon.rs` |
+//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `../polygon.rs` |
 //! | the buffer textures and the uniforms | `gpu.rs` |
 //! | the test | `glsl/shadow_tests/exact.frag` |
 //!
@@ -29,14 +29,10 @@ mod builder;
 mod caster;
 mod gpu;
 mod grid;
-pub(super) mod polygon;
-mod space;
-mod topology;
 
-pub use builder::{Builder, LightBuffer, Placed};
+pub use builder::{Builder, LightBuffer};
 pub use gpu::{ExactTest, LIGHT_BUFFER};
 pub use grid::{Cell, Layout};
-pub use space::{LightSpace, Rays};
 
 /// The file of [`super::SHADERS`].
 pub const SHADER: &str = "shadow_tests/exact.frag";

@@ -7,9 +7,9 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::shape::Shape;
-use crate::scene::{Light, LightKind, Mesh, camera};
-use crate::shadow_tests::exact::polygon::Polygon;
-use crate::shadow_tests::exact::{LightSpace, Placed, Rays};
+use crate::scene::{Beam, Light, LightKind, Mesh, camera};
+use crate::shadow_tests::polygon::Polygon;
+use crate::shadow_tests::{LightSpace, Placed, Rays};
 
 /// How many points or triangles are worth a thread.
 const WORTH_A_THREAD: usize = 4096;
@@ -28,11 +28,20 @@ const LEAST_WIDTH: f64 = 1e-6;
 /// Where a spot light's rays go: |x|, |y| are at most the depth.
 const BEAM: [DVec2; 2] = [DVec2::NEG_ONE, DVec2::ONE];
 
+/// What of a mesh has to be drawn into the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Casts {
+    Nothing,
+    /// Of a solid, the light meets its front faces first: the others are never seen.
+    FrontFaces,
+    BothFaces,
+}
+
 /// The map's camera, in the light's space.
 pub struct Fit {
     pub space: LightSpace,
-    /// Of each mesh in the scene: whether it has to be drawn.
-    pub casts: Vec<bool>,
+    /// Of each mesh in the scene.
+    pub casts: Vec<Casts>,
     /// The corners of the map, as (x, y)/depth or, where rays are parallel, as (x, y).
     pub least: DVec2,
     pub most: DVec2,
@@ -70,13 +79,18 @@ impl Fitter {
         let mut casts = Vec::new();
         let mut seen = Extent::NOTHING;
         for (index, placed) in scene.iter().enumerate() {
-            let mut needed = placed.casts && casts_on_something(index);
-            if needed {
+            let mut what = Casts::Nothing;
+            if placed.casts && casts_on_something(index) {
                 let extent = Extent::of(&space, placed);
-                needed = extent.least.is_finite();
                 seen = seen.and(extent);
+                let from_object = space.from_object(placed.model);
+                what = match extent.least.is_finite() {
+                    false => Casts::Nothing,
+                    true if shapes[index].is_solid_to(space.rays, from_object) => Casts::FrontFaces,
+                    true => Casts::BothFaces,
+                };
             }
-            casts.push(needed);
+            casts.push(what);
         }
 
         let depths = corners.iter().flatten().map(|corner| -corner.z);
@@ -100,7 +114,7 @@ fn within_one_map(light: &Light) -> Light {
     let kind = match light.kind {
         LightKind::Point { shadow_fov } => LightKind::Spot {
             cone: shadow_fov,
-            beam: crate::scene::Beam::Rectangular,
+            beam: Beam::Rectangular,
         },
         kind => kind,
     };
@@ -113,7 +127,7 @@ fn within_one_map(light: &Light) -> Light {
 impl Fit {
     fn around(
         space: LightSpace,
-        casts: Vec<bool>,
+        casts: Vec<Casts>,
         seen: &Extent,
         farthest: f64,
         size: u32,
@@ -164,13 +178,15 @@ impl Fit {
     }
 
     /// The depth that the map has of a nearness is the first number less the second times the nearness: 1/depth or,
-    /// where rays are parallel, z.
-    pub fn depths(&self) -> [f64; 2] {
+    /// where rays are parallel, z. The second one, again, for a gain in nearness along x and y: in depth per texel.
+    pub fn depths(&self, size: u32) -> DVec4 {
         let Self { near, far, .. } = *self;
-        match self.space.rays {
+        let [of_none, loss] = match self.space.rays {
             Rays::Spot | Rays::Point => [far / (far - near), far * near / (far - near)],
             Rays::Parallel => [-near / (far - near), 1.0 / (far - near)],
-        }
+        };
+        let texel = (self.most - self.least) / f64::from(size);
+        DVec4::new(of_none, loss, loss * texel.x, loss * texel.y)
     }
 }
 

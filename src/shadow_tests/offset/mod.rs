@@ -22,23 +22,22 @@
 mod fit;
 mod shape;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-pub use fit::{Fit, Fitter};
+pub use fit::{Casts, Fit, Fitter};
 
 use crate::gl::Program;
 use crate::scene::{Light, LightKind};
-use crate::shadow_tests::exact::Placed;
+use crate::shadow_tests::Placed;
 
-/// The file of [`super::SHADERS`].
+/// The file of [`super::SHADERS`]; one of [`Taps`] belongs to it.
 pub const SHADER: &str = "shadow_tests/offset.frag";
 
 /// The uniforms of `offset.frag`.
-pub const FITTED_MAP: [&str; 4] = [
+pub const FITTED_MAP: [&str; 3] = [
     "fitted_map",
     "fitted_map_rectangle",
     "fitted_map_depths",
-    "fitted_map_taps",
 ];
 
 /// The second number of `glPolygonOffset`, in what the depth format can tell apart: the stored depth and the point's are
@@ -51,11 +50,9 @@ const SNAP: f32 = 1.0 / 256.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Taps {
     /// The one around it.
-    Own,
-    /// The four around it, each by its distance; less than half of the light is shadow.
-    Four,
+    One,
     /// Its own and one on each side, whose mean is taken.
-    Cross,
+    Five,
 }
 
 impl Taps {
@@ -63,19 +60,17 @@ impl Taps {
     /// takes the larger one of the two slopes for both.
     pub fn factor(self) -> f32 {
         let reach = match self {
-            Self::Own => 0.5 + 0.5,
-            // Farther ones of the four have less than half of the weight between them.
-            Self::Four => 0.5 + 0.5,
-            Self::Cross => 1.5 + 0.5,
+            Self::One => 0.5 + 0.5,
+            Self::Five => 1.5 + 0.5,
         };
         reach + 2.0 * SNAP
     }
 
-    fn number(self) -> i32 {
+    /// The file of [`super::SHADERS`].
+    pub fn shader(self) -> &'static str {
         match self {
-            Self::Own => 1,
-            Self::Four => 4,
-            Self::Cross => 5,
+            Self::One => "shadow_tests/offset_one.frag",
+            Self::Five => "shadow_tests/offset_five.frag",
         }
     }
 }
@@ -136,10 +131,6 @@ impl OffsetTest {
         &self.fitted().1
     }
 
-    pub fn taps(&self) -> Taps {
-        self.fitted().0.taps
-    }
-
     fn fitted(&self) -> &(Inputs, Fit) {
         self.fitted
             .as_ref()
@@ -151,8 +142,7 @@ impl OffsetTest {
         let (inputs, fit) = self.fitted();
         program.set(gl, "fitted_map", unit);
         program.set(gl, "fitted_map_rectangle", fit.rectangle(inputs.size));
-        program.set(gl, "fitted_map_depths", DVec2::from(fit.depths()));
-        program.set(gl, "fitted_map_taps", inputs.taps.number());
+        program.set(gl, "fitted_map_depths", fit.depths(inputs.size));
     }
 
     /// How much of the light's own field of view (or box) the map covers, across and up.

@@ -1,9 +1,11 @@
-//! What of a mesh decides whether it can cast onto something.
+//! What of a mesh decides whether it can cast onto something, and which of its faces do.
 
 use glam::{DMat4, DVec3};
 
 use crate::scene::Mesh;
-use crate::shadow_tests::exact::Rays;
+use crate::shadow_tests::Rays;
+use crate::shadow_tests::placed::box_corners;
+use crate::shadow_tests::topology::Topology;
 
 /// How far a point may lie before a plane and still count as on it, as a share of the largest distance: some thousand
 /// times what f64 rounds. What stands on a floor is not behind it.
@@ -18,58 +20,65 @@ pub struct Shape {
     pub bounds: [DVec3; 2],
     /// Whether no face has anything of the mesh before it: it casts no shadow onto faces of its own that face the light.
     pub convex: bool,
+    /// Whether its faces enclose volumes, all seen from outside.
+    solid: bool,
 }
 
 impl Shape {
     pub fn new(mesh: &Mesh) -> Self {
-        let positions = mesh.positions.iter().copied();
-        let least = positions.clone().fold(DVec3::INFINITY, DVec3::min);
-        let most = positions.fold(DVec3::NEG_INFINITY, DVec3::max);
+        let topology = Topology::new(mesh);
+        let [least, most] = topology.bounds;
         Self {
             bounds: [least, most],
             convex: is_flat(mesh, most - least) || is_convex(mesh, most - least),
+            solid: is_solid(&topology),
         }
     }
 
-    /// The corners of the box around the mesh, placed by a matrix; none of a mesh without vertices.
+    /// The corners of the box around the mesh, where a matrix puts them.
     pub fn corners(&self, placement: DMat4) -> Vec<DVec3> {
-        let [least, most] = self.bounds;
-        if !least.is_finite() {
-            return Vec::new();
-        }
-        let corner = |i: u32| {
-            let pick = |axis: u32| [least, most][(i >> axis & 1) as usize][axis as usize];
-            placement.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-        };
-        (0..8).map(corner).collect()
+        box_corners(placement, self.bounds)
     }
 
     /// Whether all points are on the light's side of one side of the box around the mesh: nothing of the mesh stands
     /// between them and the light. All in the light's space.
     pub fn is_behind(&self, rays: Rays, from_object: DMat4, points: &[DVec3]) -> bool {
-        let corners = self.corners(from_object);
-        let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
-            return true;
-        };
-        let [a, b, c] = [1, 2, 4].map(|i| corners[i] - *first);
-        let volume = a.cross(b).dot(c);
-        // Each of three pairs of parallel sides; of a box without volume the two sides of a pair are one.
-        let outward = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| match volume < 0.0 {
-            true => -normal,
-            false => normal,
-        });
-        let sides = outward
-            .iter()
-            .flat_map(|normal| [(*normal, *last), (-*normal, *first)]);
-        let mut facing = sides.filter(|(normal, corner)| match rays {
-            Rays::Spot | Rays::Point => normal.dot(*corner) < 0.0,
-            Rays::Parallel => normal.z > 0.0,
-        });
+        let mut facing = self.sides_to_light(rays, from_object);
         facing.any(|(normal, corner)| {
             let least = -ON_PLANE * normal.length();
             let mut points = points.iter();
             points.all(|point| normal.dot(*point - corner) >= least)
         })
+    }
+
+    /// Whether the light, which is outside of it, meets front faces of the mesh before any others.
+    pub fn is_solid_to(&self, rays: Rays, from_object: DMat4) -> bool {
+        // A mirrored mesh has its front faces inside.
+        let mirrored = from_object.determinant() < 0.0;
+        self.solid && !mirrored && self.sides_to_light(rays, from_object).next().is_some()
+    }
+
+    /// The sides of the box around the mesh that face the light: a normal, outwards, and a corner. From within the box
+    /// there is none.
+    fn sides_to_light(
+        &self,
+        rays: Rays,
+        from_object: DMat4,
+    ) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let corners = self.corners(from_object);
+        let ends = corners.first().copied().zip(corners.last().copied());
+        let sides = ends.map(|(first, last)| {
+            let [a, b, c] = [1, 2, 4].map(|i| corners[i] - first);
+            // Of a mirrored box the products point the other way; of a flat one the two sides of a pair are one.
+            let sign = if a.cross(b).dot(c) < 0.0 { -1.0 } else { 1.0 };
+            let outwards = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| sign * normal);
+            outwards.map(|normal| [(normal, last), (-normal, first)])
+        });
+        let faces_light = move |(normal, corner): &(DVec3, DVec3)| match rays {
+            Rays::Spot | Rays::Point => normal.dot(*corner) < 0.0,
+            Rays::Parallel => normal.z > 0.0,
+        };
+        sides.into_iter().flatten().flatten().filter(faces_light)
     }
 }
 
@@ -100,6 +109,20 @@ fn is_convex(mesh: &Mesh, size: DVec3) -> bool {
         })
 }
 
+/// Whether every component of a mesh encloses a volume, which its faces look out of.
+fn is_solid(topology: &Topology) -> bool {
+    let volume = |component: &Vec<u32>| {
+        let six_times = component.iter().map(|face| {
+            let [a, b, c] = topology.faces[*face as usize]
+                .map(|i| topology.points[i as usize] - topology.bounds[0]);
+            a.dot(b.cross(c))
+        });
+        six_times.sum::<f64>()
+    };
+    topology.closed.iter().all(|closed| *closed)
+        && topology.components.iter().all(|c| volume(c) > 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +142,23 @@ mod tests {
             face.swap(0, 1);
         }
         assert!(!Shape::new(&inverted).convex);
+    }
+
+    #[test]
+    fn what_the_light_sees_from_outside_is_solid() {
+        let before = DMat4::from_translation(-5.0 * DVec3::Z);
+        let solid = |mesh: &Mesh, place: DMat4| Shape::new(mesh).is_solid_to(Rays::Spot, place);
+        assert!(solid(&shapes::cube(), before));
+        assert!(solid(&shapes::torus(0.3, 8), before));
+        // The light inside; a mirror; a sheet; inside out.
+        assert!(!solid(&shapes::cube(), DMat4::IDENTITY));
+        assert!(!solid(&shapes::cube(), before * DMat4::from_scale(-DVec3::ONE)));
+        assert!(!solid(&shapes::plane(2), before));
+        let mut inverted = shapes::cube();
+        for face in &mut inverted.faces {
+            face.swap(0, 1);
+        }
+        assert!(!solid(&inverted, before));
     }
 
     #[test]
