@@ -167,7 +167,7 @@ fn the_shaders_differ_from_the_handouts_in_the_test_alone() {
             "cs541/lighting_exact.frag",
             &cs541[..],
         ),
-        ("cs541/lighting.vert", "cs541/lighting_exact.vert", &vertex),
+        ("cs541/lighting.vert", "cs541/lighting_lcs.vert", &vertex),
         (
             "csci3260/FragmentShaderCode.glsl",
             "csci3260/FragmentShaderCode_exact.glsl",

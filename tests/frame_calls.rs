@@ -46,6 +46,33 @@ const CASES: &[Case] = &[
         ],
     },
     Case {
+        lab: "cs541",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            // The floor casts on nothing.
+            ("first pass: drawing the fitted shadow map", 13),
+            ("second pass: using the fitted shadow map", 16),
+        ],
+    },
+    Case {
+        lab: "csci3260",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            // The sea casts on nothing.
+            ("rendering the fitted shadow map", 1),
+            ("using the fitted shadow map", 2),
+        ],
+    },
+    Case {
+        lab: "csci3260",
+        settings: &["redraw=every_frame", "shadow_test=offset", "scene=room"],
+        passes: &[
+            // The ground casts on nothing.
+            ("rendering the fitted shadow map", 3),
+            ("using the fitted shadow map", 4),
+        ],
+    },
+    Case {
         lab: "csci3260",
         settings: &["redraw=every_frame", "shadow_test=exact"],
         passes: &[("the light buffer", 0), ("using the light buffer", 2)],
@@ -160,7 +187,7 @@ fn sets(line: &Line, now: &HashMap<String, String>) -> Option<(String, String)> 
         "glUseProgram" | "glBindVertexArray" | "glViewport" | "glActiveTexture"
         | "glClearColor" | "glCullFace" | "glDepthFunc" | "glDepthMask" | "glColorMask"
         | "glPolygonMode" | "glDepthRange" | "glStencilFunc" | "glStencilOp" | "glBlendFunc"
-        | "glBlendColor" => name.to_owned(),
+        | "glBlendColor" | "glPolygonOffset" => name.to_owned(),
         "glBindFramebuffer" | "glBindBuffer" => format!("{name} {}", line.args[0]),
         "glBindTexture" => format!("{name} {:?} {}", now.get("glActiveTexture"), line.args[0]),
         "glEnable" | "glDisable" => return Some((args, name.to_owned())),
@@ -268,9 +295,10 @@ fn at_rest_there_is_no_shadow_pass() {
     let has = |lab: &Handout, name: &str| lab.settings.iter().any(|setting| setting.name == name);
     let own = LABS.iter().filter(|lab| has(lab, "redraw"));
     let own = own.map(|lab| (lab, &[][..]));
-    let exact = LABS.iter().filter(|lab| has(lab, "shadow_test"));
-    let exact = exact.map(|lab| (lab, &["shadow_test=exact"][..]));
-    for (lab, test) in own.chain(exact) {
+    let tested = LABS.iter().filter(|lab| has(lab, "shadow_test"));
+    let others = [&["shadow_test=offset"][..], &["shadow_test=exact"]];
+    let others = tested.flat_map(|lab| others.map(|test| (lab, test)));
+    for (lab, test) in own.chain(others) {
         let mut bench = Bench::recorded(lab.name, [64, 64], test);
         let mut calls = || {
             bench.render();

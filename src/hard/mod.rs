@@ -53,7 +53,8 @@ pub struct Test {
     pub rule: Expected,
 }
 
-/// The handouts' tests, none of which holds everywhere: their rule is no more than to be shown. And the exact one.
+/// The handouts' tests, none of which holds everywhere: their rule is no more than to be shown. The offset test, which
+/// holds wherever one map sees what casts. And the exact one.
 pub const TESTS: &[Test] = &[
     handout("cs541", "remedy=none filter=nearest"),
     handout("cs541", "remedy=epsilon"),

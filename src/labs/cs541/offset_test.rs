@@ -11,7 +11,7 @@ use super::Cs541;
 use super::programs::{offset_lighting_program, offset_visibility_program};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::offset::{Casts, Fit, OffsetTest, Taps, UNITS};
+use crate::shadow_tests::offset::{Casts, OffsetTest, Taps, UNITS, set_culling};
 
 /// A filter, of depths or of tests, costs more than the handout's whole test, and makes no shadow truer.
 pub const TAPS: Taps = Taps::One;
@@ -44,8 +44,7 @@ impl Offset {
 
 fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let lighting = offset_lighting_program(gl, shaders)?;
-    let visibility =
-        offset_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
+    let visibility = offset_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
     Ok([lighting, visibility])
 }
 
@@ -88,29 +87,23 @@ impl Cs541 {
 
             program.set(gl, "persp_matrix", fit.projection());
             program.set(gl, "view_matrix", DMat4::IDENTITY);
-            // Solids first: their back faces are never nearest.
-            if fit.casts.contains(&Casts::FrontFaces) {
-                gl.enable(glow::CULL_FACE);
-                gl.cull_face(glow::BACK);
-                self.draw_casters(gl, fit, Casts::FrontFaces);
-                gl.disable(glow::CULL_FACE);
+            gl.cull_face(glow::BACK);
+            let mut culling = false;
+            let objects = self.scene.objects.iter().zip(&self.meshes);
+            for ((object, mesh), casts) in objects.zip(&fit.casts) {
+                if *casts == Casts::Nothing {
+                    continue;
+                }
+                culling = set_culling(gl, *casts == Casts::FrontFaces, culling);
+                let model = fit.space.from_object(object.model(self.time));
+                program.set(gl, "model_matrix", model);
+                mesh.draw(gl);
             }
-            self.draw_casters(gl, fit, Casts::BothFaces);
+            set_culling(gl, false, culling);
 
             gl.disable(glow::DEPTH_CLAMP);
             gl.disable(glow::POLYGON_OFFSET_FILL);
             gl.bind_framebuffer(glow::FRAMEBUFFER, None);
-        }
-    }
-
-    fn draw_casters(&self, gl: &glow::Context, fit: &Fit, wanted: Casts) {
-        let objects = self.scene.objects.iter().zip(&self.meshes);
-        for ((object, mesh), casts) in objects.zip(&fit.casts) {
-            if *casts == wanted {
-                let model = fit.space.from_object(object.model(self.time));
-                self.programs.shadow.set(gl, "model_matrix", model);
-                mesh.draw(gl);
-            }
         }
     }
 

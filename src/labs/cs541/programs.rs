@@ -168,13 +168,7 @@ fn exact_program(
 ) -> Result<Program> {
     let fragments = [fragment, exact::SHADER];
     let own = ["first_triangle"];
-    let uniforms = [
-        &MATRICES[..],
-        &LCS_TEST,
-        &own,
-        &exact::LIGHT_BUFFER,
-        others,
-    ];
+    let uniforms = [&MATRICES[..], &LCS_TEST, &own, &exact::LIGHT_BUFFER, others];
     let uniforms = uniforms.concat();
     Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
 }

@@ -72,14 +72,10 @@ impl Cs541 {
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
         let (heading, program) = match self.shadow_test() {
-            ShadowTest::Handout => (
-                "second pass: using the shadow map",
-                &self.programs.lighting,
-            ),
-            ShadowTest::Offset(offset) => (
-                "second pass: using the fitted shadow map",
-                &offset.lighting,
-            ),
+            ShadowTest::Handout => ("second pass: using the shadow map", &self.programs.lighting),
+            ShadowTest::Offset(offset) => {
+                ("second pass: using the fitted shadow map", &offset.lighting)
+            }
             ShadowTest::Exact(exact) => ("second pass: using the light buffer", &exact.lighting),
         };
         let _pass = gl::pass(gl, heading);

@@ -218,14 +218,21 @@ impl Csci3260 {
         gl: &glow::Context,
         mut send: impl FnMut(&Mesh, glow::Texture) -> bool,
     ) {
+        let mut bound = self.bound.take();
         for model in self.models[self.place()].iter().flatten() {
             let chosen = self.chosen_texture(&model.name);
             for mesh in &model.meshes {
                 let texture = mesh.textures.get(chosen).unwrap_or(&mesh.textures[0]);
                 if send(mesh, *texture) {
-                    mesh.buffers.draw(gl);
+                    // The map's last mesh may be the picture's first.
+                    if bound.replace(mesh.object) == Some(mesh.object) {
+                        mesh.buffers.draw_again(gl);
+                    } else {
+                        mesh.buffers.draw(gl);
+                    }
                 }
             }
         }
+        self.bound.set(bound);
     }
 }

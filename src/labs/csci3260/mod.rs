@@ -26,6 +26,7 @@ mod shadow_map;
 mod shadow_test;
 mod stages;
 
+use std::cell::Cell;
 use std::path::Path;
 
 use glam::{DMat4, DVec3};
@@ -127,6 +128,8 @@ struct Csci3260 {
 
     /// What both passes draw, of each scene; None until it is first drawn.
     models: [Option<Vec<Model>>; 2],
+    /// The object that this frame has drawn last.
+    bound: Cell<Option<usize>>,
 
     shaders: Shaders,
     programs: Programs,
@@ -177,6 +180,7 @@ impl Csci3260 {
             dolphin_texture: 0,
             sea_texture: 0,
             models: [None, None],
+            bound: Cell::new(None),
             shaders,
             programs,
             largest_map,
@@ -252,6 +256,7 @@ impl Csci3260 {
     #[doc(alias = "paintGL")]
     fn paint_gl(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.send_data_to_opengl(gl)?;
+        self.bound.set(None);
         self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => self.use_shadow_map(gl),

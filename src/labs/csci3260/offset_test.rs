@@ -10,7 +10,7 @@ use super::Csci3260;
 use super::basic_shader::{SHADING, VERTEX_SHADER};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::offset::{self, Casts, Fit, OffsetTest, Taps, UNITS};
+use crate::shadow_tests::offset::{self, Casts, OffsetTest, Taps, UNITS, set_culling};
 
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Offset {
@@ -104,26 +104,20 @@ impl Csci3260 {
             gl.enable(glow::POLYGON_OFFSET_FILL);
             gl.polygon_offset(offset.taps.factor(), UNITS);
         }
-        // Solids first: their back faces are never nearest.
-        if fit.casts.contains(&Casts::FrontFaces) {
-            unsafe { gl.enable(glow::CULL_FACE) };
-            self.draw_casters(gl, fit, Casts::FrontFaces);
-            unsafe { gl.disable(glow::CULL_FACE) };
-        }
-        self.draw_casters(gl, fit, Casts::BothFaces);
-        unsafe { gl.disable(glow::POLYGON_OFFSET_FILL) };
-    }
-
-    fn draw_casters(&self, gl: &glow::Context, fit: &Fit, wanted: Casts) {
+        let mut culling = false;
         self.draw_scene(gl, |mesh, _| {
-            let casts = fit.casts[mesh.object] == wanted;
-            if casts {
-                let model = self.model_matrix(&self.scene().objects[mesh.object]);
-                let depth_mvp = fit.projection() * fit.space.from_object(model);
-                self.programs.shadow_map.set(gl, "depthMVP", depth_mvp);
+            let casts = fit.casts[mesh.object];
+            if casts == Casts::Nothing {
+                return false;
             }
-            casts
+            culling = set_culling(gl, casts == Casts::FrontFaces, culling);
+            let model = self.model_matrix(&self.scene().objects[mesh.object]);
+            let depth_mvp = fit.projection() * fit.space.from_object(model);
+            program.set(gl, "depthMVP", depth_mvp);
+            true
         });
+        set_culling(gl, false, culling);
+        unsafe { gl.disable(glow::POLYGON_OFFSET_FILL) };
     }
 
     /// What every program with the offset test needs: the fitted map, on texture unit 1.

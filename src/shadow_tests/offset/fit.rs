@@ -223,10 +223,7 @@ impl Extent {
             let point = point(position);
             in_beam(point).then(|| Self::of_point(point.truncate() / -point.z, -point.z))
         });
-        let whole = seen.try_reduce(
-            || Self::NOTHING,
-            |some, others| Some(some.and(others)),
-        );
+        let whole = seen.try_reduce(|| Self::NOTHING, |some, others| Some(some.and(others)));
         whole.unwrap_or_else(|| {
             let faces = placed.mesh.faces.par_iter().with_min_len(WORTH_A_THREAD);
             let seen = faces.map(|face| {

@@ -19,10 +19,15 @@
 //!
 //! Neither leaves a constant to be chosen. What is left falls short by no more than a texel: the map's resolution.
 
+//!
+//! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
+#![allow(unsafe_code)]
+
 mod fit;
 mod shape;
 
 use glam::DVec3;
+use glow::HasContext;
 
 pub use fit::{Casts, Fit, Fitter};
 
@@ -34,11 +39,7 @@ use crate::shadow_tests::Placed;
 pub const SHADER: &str = "shadow_tests/offset.frag";
 
 /// The uniforms of `offset.frag`.
-pub const FITTED_MAP: [&str; 3] = [
-    "fitted_map",
-    "fitted_map_rectangle",
-    "fitted_map_depths",
-];
+pub const FITTED_MAP: [&str; 3] = ["fitted_map", "fitted_map_rectangle", "fitted_map_depths"];
 
 /// The second number of `glPolygonOffset`, in what the depth format can tell apart: the stored depth and the point's are
 /// each rounded when they are projected, interpolated and stored.
@@ -73,6 +74,18 @@ impl Taps {
             Self::Five => "shadow_tests/offset_five.frag",
         }
     }
+}
+
+/// Culls back faces or not, where that is a change; returns what then holds.
+pub fn set_culling(gl: &glow::Context, wanted: bool, now: bool) -> bool {
+    unsafe {
+        match (wanted, now) {
+            (true, false) => gl.enable(glow::CULL_FACE),
+            (false, true) => gl.disable(glow::CULL_FACE),
+            _ => (),
+        }
+    }
+    wanted
 }
 
 /// Everything that decides what the map holds.

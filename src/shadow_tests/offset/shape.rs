@@ -152,7 +152,10 @@ mod tests {
         assert!(solid(&shapes::torus(0.3, 8), before));
         // The light inside; a mirror; a sheet; inside out.
         assert!(!solid(&shapes::cube(), DMat4::IDENTITY));
-        assert!(!solid(&shapes::cube(), before * DMat4::from_scale(-DVec3::ONE)));
+        assert!(!solid(
+            &shapes::cube(),
+            before * DMat4::from_scale(-DVec3::ONE)
+        ));
         assert!(!solid(&shapes::plane(2), before));
         let mut inverted = shapes::cube();
         for face in &mut inverted.faces {
