@@ -249,6 +249,8 @@ fn every_setting_is_read() {
         (&[], "map_size=256"),
         (&[], "constant_depth_bias=0"),
         (&[], "outside=lit"),
+        (&[], "shadow_test=exact"),
+        (&["shadow_test=exact"], "outside=lit"),
         (&[], "shadows=off"),
     ] {
         assert!(changes(base, setting), "{setting}");

@@ -337,13 +337,15 @@ fn visibility_is_the_shadow_test_of_the_lighting() {
         lit.filter(|(x, y, pixel)| unshadowed.get_pixel(*x, *y) != *pixel)
             .count()
     };
-    let mut bench = bench(&["balls=60"]);
-    let picture = bench.picture();
-    let visibility = [DIRECTIONAL, SPOT].map(|light| bench.visibility_of(light));
-    bench.set(&["shadows=off"]);
-    let unshadowed = bench.picture();
-    assert_eq!(wrong(&picture, &unshadowed, &visibility), 0);
-    // The control: shadows elsewhere.
-    let shifted = visibility.map(|v| image::imageops::flip_horizontal(&v));
-    assert!(wrong(&picture, &unshadowed, &shifted) > 100);
+    for test in ["shadow_test=handout", "shadow_test=exact"] {
+        let mut bench = bench(&["balls=60", test]);
+        let picture = bench.picture();
+        let visibility = [DIRECTIONAL, SPOT].map(|light| bench.visibility_of(light));
+        bench.set(&["shadows=off"]);
+        let unshadowed = bench.picture();
+        assert_eq!(wrong(&picture, &unshadowed, &visibility), 0, "{test}");
+        // The control: shadows elsewhere.
+        let shifted = visibility.map(|v| image::imageops::flip_horizontal(&v));
+        assert!(wrong(&picture, &unshadowed, &shifted) > 100, "{test}");
+    }
 }

@@ -85,7 +85,11 @@ fn light_on(light: &Light, surface: &Surface) -> Option<DVec3> {
 /// Random pixels of a state, as the formula has them and as the picture does: how many differ, of how many.
 fn differing_from(formula: &Formula, mode: (&str, &[usize]), seed: u64) -> [usize; 2] {
     let (setting, lights) = mode;
-    let mut bench = Bench::new("cmsc23700", SIZE, &[setting, "balls=60"]);
+    differing_with(formula, &[setting, "balls=60"], lights, seed)
+}
+
+fn differing_with(formula: &Formula, settings: &[&str], lights: &[usize], seed: u64) -> [usize; 2] {
+    let mut bench = Bench::new("cmsc23700", SIZE, settings);
     let picture = bench.picture();
     let visibilities: Vec<_> = lights.iter().map(|l| bench.visibility_of(*l)).collect();
     let scene = bench.lab.now();
@@ -123,6 +127,17 @@ fn the_picture_has_the_handouts_formula() {
         let [differing, asked] = differing_from(&HANDOUTS, mode, 1);
         assert!(asked > 700, "{mode:?}: {asked}");
         assert_eq!(differing, 0, "{mode:?}, of {asked}");
+    }
+}
+
+/// The formula asks for S_l, whoever tells it.
+#[test]
+fn the_picture_with_the_exact_test_has_the_formula_too() {
+    for (lights, numbers) in MODES {
+        let settings = [lights, "balls=60", "shadow_test=exact"];
+        let [differing, asked] = differing_with(&HANDOUTS, &settings, numbers, 1);
+        assert!(asked > 700, "{lights}: {asked}");
+        assert_eq!(differing, 0, "{lights}, of {asked}");
     }
 }
 

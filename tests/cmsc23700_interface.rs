@@ -127,12 +127,15 @@ fn every_setting_is_read() {
         "map_size=256",
         "directional_bias=0",
         "spot_bias=0",
+        "shadow_test=exact",
     ] {
         assert!(changes(&[], setting), "{setting}");
     }
     // The controls: what has no say where its light is off.
     assert!(!changes(&["lights=spotlight"], "directional_bias=0"));
     assert!(!changes(&["lights=directional"], "spot_bias=0"));
+    // And what has none where there is no map.
+    assert!(!changes(&["shadow_test=exact"], "directional_bias=0"));
 }
 
 #[test]

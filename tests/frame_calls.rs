@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use calls::{Line, in_pass, parse_c};
 use common::Bench;
 use shadowlab::gl::trace;
-use shadowlab::labs::{Handout, LABS};
+use shadowlab::labs::{Handout, Kind, LABS, Setting};
 
 /// A lab in a state, with the passes of its frame and the draws of each.
 struct Case {
@@ -123,6 +123,24 @@ const CASES: &[Case] = &[
             ("first pass", 0),
             ("first pass: the spotlight's shadow map", 4),
             ("second pass", 4),
+        ],
+    },
+    Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "shadow_test=exact"],
+        passes: &[
+            ("the light buffer", 0),
+            ("second pass: Render, with the light buffer", 4),
+        ],
+    },
+    Case {
+        lab: "cmsc23700",
+        settings: &["redraw=every_frame", "shadow_test=exact"],
+        passes: &[
+            ("the balls' places", 0),
+            ("the directional light's buffer", 0),
+            ("the spotlight's buffer", 0),
+            ("second pass: with the light buffers", 5),
         ],
     },
     Case {
@@ -293,11 +311,23 @@ fn superfluous_calls_are_found() {
 #[test]
 fn at_rest_there_is_no_shadow_pass() {
     let has = |lab: &Handout, name: &str| lab.settings.iter().any(|setting| setting.name == name);
+    let offers = |lab: &Handout, test: &str| {
+        let offers = |setting: &Setting| match setting.kind {
+            Kind::Choice(choices) => setting.name == "shadow_test" && choices.contains(&test),
+            _ => false,
+        };
+        lab.settings.iter().any(offers)
+    };
     let own = LABS.iter().filter(|lab| has(lab, "redraw"));
     let own = own.map(|lab| (lab, &[][..]));
-    let tested = LABS.iter().filter(|lab| has(lab, "shadow_test"));
-    let others = [&["shadow_test=offset"][..], &["shadow_test=exact"]];
-    let others = tested.flat_map(|lab| others.map(|test| (lab, test)));
+    let others = ["offset", "exact"].into_iter().flat_map(|test| {
+        let assignment: &[&str] = match test {
+            "offset" => &["shadow_test=offset"],
+            _ => &["shadow_test=exact"],
+        };
+        let tested = LABS.iter().filter(move |lab| offers(lab, test));
+        tested.map(move |lab| (lab, assignment))
+    });
     for (lab, test) in own.chain(others) {
         let mut bench = Bench::recorded(lab.name, [64, 64], test);
         let mut calls = || {

@@ -23,7 +23,16 @@ uniform int beam;
 
 out vec4 frag_color;
 
-bool is_in_shadow_of_source(vec3 position_lcs, bool all_directions, int triangle);
+// Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
+struct LightBuffer {
+    usamplerBuffer cells;
+    usamplerBuffer lists;
+    samplerBuffer casters;
+    vec4 rectangle;
+    int side;
+};
+uniform LightBuffer light_buffer;
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
 
 void main(void)
 {
@@ -34,9 +43,10 @@ void main(void)
         inside_beam = inside_beam && length(position_lcs.xy) <= -position_lcs.z;
 
     // The shadow test: is there a triangle between the point and the light? What is dark anyway is not asked about.
+    int triangle = first_triangle + gl_PrimitiveID;
     bool in_shadow = false;
     if ((inside_beam || beam == NO_BEAM) && dot(normal_vector, light_vector) > 0)
-        in_shadow = is_in_shadow_of_source(position_lcs, beam == NO_BEAM, first_triangle + gl_PrimitiveID);
+        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, triangle);
 
     // Local illumination: the light reaches what is in its beam and not in shadow.
     bool illuminated = !in_shadow && (inside_beam || beam == NO_BEAM);

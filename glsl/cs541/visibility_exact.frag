@@ -12,7 +12,16 @@ uniform int beam;
 
 out vec4 frag_color;
 
-bool is_in_shadow_of_source(vec3 position_lcs, bool all_directions, int triangle);
+// Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
+struct LightBuffer {
+    usamplerBuffer cells;
+    usamplerBuffer lists;
+    samplerBuffer casters;
+    vec4 rectangle;
+    int side;
+};
+uniform LightBuffer light_buffer;
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
 
 void main(void)
 {
@@ -21,9 +30,10 @@ void main(void)
     if (beam == CIRCULAR)
         inside_beam = inside_beam && length(position_lcs.xy) <= -position_lcs.z;
 
+    int triangle = first_triangle + gl_PrimitiveID;
     bool in_shadow = false;
     if (inside_beam || beam == NO_BEAM)
-        in_shadow = is_in_shadow_of_source(position_lcs, beam == NO_BEAM, first_triangle + gl_PrimitiveID);
+        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, triangle);
 
     frag_color = vec4(vec3(in_shadow ? 0 : 1), 1);
 }

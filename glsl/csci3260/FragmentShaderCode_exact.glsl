@@ -25,7 +25,16 @@ uniform vec3 SpecularLightColor;
 
 out vec4 color;
 
-bool is_in_shadow_of_rays(vec3 position_lcs, int triangle);
+// Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
+struct LightBuffer {
+    usamplerBuffer cells;
+    usamplerBuffer lists;
+    samplerBuffer casters;
+    vec4 rectangle;
+    int side;
+};
+uniform LightBuffer light_buffer;
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle);
 
 void main()
 {
@@ -35,7 +44,7 @@ void main()
     // Is there a triangle between the fragment and the light? What is dark anyway is not asked about.
     float visibility = 1.0;
     if (dot(n, l) > 0) {
-        if (is_in_shadow_of_rays(ShadowCoord.xyz, firstTriangle + gl_PrimitiveID))
+        if (is_in_shadow_of_rays(light_buffer, ShadowCoord.xyz, firstTriangle + gl_PrimitiveID))
             visibility = 0.5;
     }
     // Can set different visibilities to diffuse and specular light.

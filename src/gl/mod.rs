@@ -25,7 +25,7 @@ pub use read::{
     read_stencil,
 };
 pub use shader::{Program, Shaders};
-pub use texture::{largest_texture, levels, solid_texture, texture};
+pub use texture::{Textures, distinct, largest_texture, levels, solid_texture, texture};
 pub use timer::{finish, time_passes};
 pub use uniform::Value;
 

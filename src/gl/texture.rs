@@ -1,5 +1,8 @@
 //! Colour textures for objects.
 
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
 use glow::{HasContext, PixelUnpackData};
 use image::{RgbaImage, imageops};
 
@@ -56,6 +59,43 @@ pub fn texture(gl: &glow::Context, name: &str, levels: &[RgbaImage]) -> Result<g
         }
         Ok(texture)
     }
+}
+
+/// The textures of a scene's pictures: each is sent once, however many objects wear it.
+#[derive(Default)]
+pub struct Textures {
+    /// By where a picture is in memory. The scene, which has it, outlives its being sent.
+    sent: HashMap<*const RgbaImage, glow::Texture>,
+}
+
+impl Textures {
+    /// The texture of a picture; if it is new, the `levels` are asked for and sent under this name.
+    pub fn of(
+        &mut self,
+        gl: &glow::Context,
+        name: &str,
+        picture: &Arc<RgbaImage>,
+        levels: impl FnOnce() -> Vec<RgbaImage>,
+    ) -> Result<glow::Texture> {
+        let place = Arc::as_ptr(picture);
+        if let Some(texture) = self.sent.get(&place) {
+            return Ok(*texture);
+        }
+        let texture = texture(gl, name, &levels())?;
+        self.sent.insert(place, texture);
+        Ok(texture)
+    }
+}
+
+/// Each picture once, in the order in which [`Textures::of`] will ask for its levels.
+pub fn distinct<'a>(
+    pictures: impl IntoIterator<Item = &'a Arc<RgbaImage>>,
+) -> Vec<&'a Arc<RgbaImage>> {
+    let mut known = HashSet::new();
+    let pictures = pictures.into_iter();
+    pictures
+        .filter(|picture| known.insert(Arc::as_ptr(picture)))
+        .collect()
 }
 
 /// The most pixels that the driver allows along a side.

@@ -27,6 +27,10 @@ impl Bench {
     /// The same with every GL call recorded.
     pub fn recorded(lab: &str, size: [u32; 2], settings: &[&str]) -> Self {
         let scene = (labs::find(lab).unwrap().scene)().unwrap();
+        Self::recorded_with_scene(lab, scene, size, settings)
+    }
+
+    pub fn recorded_with_scene(lab: &str, scene: Scene, size: [u32; 2], settings: &[&str]) -> Self {
         let context = Headless::open(&Choice::Software, size, true).unwrap();
         Self::start(lab, scene, None, context, size, settings)
     }

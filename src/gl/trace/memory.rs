@@ -30,8 +30,8 @@ type Key = (ObjectKind, u32);
 #[derive(Default)]
 pub struct Memory {
     unit: u32,
-    /// The object that a target names: the target, and for textures the unit.
-    bound: HashMap<(u32, u32), Key>,
+    /// The object of a kind that a target names: the target, and for textures the unit.
+    bound: HashMap<(ObjectKind, u32, u32), Key>,
     /// Of each object, its parts: a texture has one for each level of each face, everything else a single one.
     stored: HashMap<Key, HashMap<(u32, i64), u64>>,
     attached: HashSet<Key>,
@@ -66,7 +66,7 @@ impl Memory {
                 "glBindTexture" | "glBindBuffer" | "glBindRenderbuffer",
                 [Arg::Enum(_, target), Arg::Object(object)],
             ) => {
-                let place = self.place(*target);
+                let place = self.place(object.kind, *target);
                 self.bound.insert(place, (object.kind, object.id));
             }
             (
@@ -81,7 +81,7 @@ impl Memory {
                 ],
             ) => {
                 let size = texel_bytes(*format)? * (width * height) as u64;
-                self.store(*target, (*target, *level), size);
+                self.store(ObjectKind::Texture, *target, (*target, *level), size);
             }
             (
                 "glRenderbufferStorage",
@@ -93,10 +93,10 @@ impl Memory {
                 ],
             ) => {
                 let size = texel_bytes(*format)? * (width * height) as u64;
-                self.store(*target, (0, 0), size);
+                self.store(ObjectKind::Renderbuffer, *target, (0, 0), size);
             }
             ("glBufferData", [Arg::Enum(_, target), Arg::Int(size), ..]) => {
-                self.store(*target, (0, 0), *size as u64);
+                self.store(ObjectKind::Buffer, *target, (0, 0), *size as u64);
             }
             (name, args)
                 if name.starts_with("glFramebufferTexture")
@@ -135,20 +135,22 @@ impl Memory {
         Ok(())
     }
 
-    /// Each texture unit has bindings of its own.
-    fn place(&self, target: u32) -> (u32, u32) {
-        match target {
-            glow::TEXTURE_2D | glow::TEXTURE_CUBE_MAP | glow::TEXTURE_BUFFER => (target, self.unit),
-            glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z => {
-                (glow::TEXTURE_CUBE_MAP, self.unit)
-            }
-            _ => (target, 0),
+    /// Each texture unit has bindings of its own. A buffer and a texture may be bound to targets of one name:
+    /// GL_TEXTURE_BUFFER.
+    fn place(&self, kind: ObjectKind, target: u32) -> (ObjectKind, u32, u32) {
+        match (kind, target) {
+            (
+                ObjectKind::Texture,
+                glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z,
+            ) => (kind, glow::TEXTURE_CUBE_MAP, self.unit),
+            (ObjectKind::Texture, _) => (kind, target, self.unit),
+            _ => (kind, target, 0),
         }
     }
 
     /// The object that the target names has this much storage in one of its parts.
-    fn store(&mut self, target: u32, part: (u32, i64), size: u64) {
-        if let Some(key) = self.bound.get(&self.place(target)) {
+    fn store(&mut self, kind: ObjectKind, target: u32, part: (u32, i64), size: u64) {
+        if let Some(key) = self.bound.get(&self.place(kind, target)) {
             self.stored.entry(*key).or_default().insert(part, size);
         }
     }
@@ -249,6 +251,31 @@ mod tests {
         let delete = [Arg::Int(1), Arg::Objects(vec![map])];
         memory.note(&[call("glDeleteTextures", &delete)]).unwrap();
         assert_eq!(memory.bytes().total(), 120);
+    }
+
+    /// A buffer texture's storage is its buffer's, whatever was bound last and wherever.
+    #[test]
+    fn a_buffer_texture_is_counted_as_its_buffer() {
+        let mut memory = Memory::default();
+        let target = || general(glow::TEXTURE_BUFFER);
+        let object = |kind, id| Arg::Object(Object::new(kind, id));
+        let events = [
+            call("glBindBuffer", &[target(), object(ObjectKind::Buffer, 1)]),
+            call("glActiveTexture", &[general(glow::TEXTURE0 + 3)]),
+            call("glBindTexture", &[target(), object(ObjectKind::Texture, 1)]),
+            call("glBufferData", &[target(), Arg::Int(64)]),
+        ];
+        memory.note(&events).unwrap();
+        let buffers = 64;
+        let expected = Bytes {
+            buffers,
+            ..Bytes::default()
+        };
+        assert_eq!(memory.bytes(), expected);
+        // Given back.
+        let events = [call("glBufferData", &[target(), Arg::Int(0)])];
+        memory.note(&events).unwrap();
+        assert_eq!(memory.bytes().total(), 0);
     }
 
     /// The control: what it cannot count, it says.

@@ -10,6 +10,7 @@
 //! | Exercise 2: the shadow map resolution | the setting `map_size` |
 //! | Exercise 3: PCF, the bias, the step | `glsl/aueb7/is_point_in_shadow.frag`; the settings `filter`, `constant_depth_bias`, `step` |
 //! | `SceneGraphExampleInit`, `2`, `3` | `scenes.rs`; the setting `scene` |
+//! | no part of it: a test without a map | `exact_test.rs`; `glsl/aueb7/SpotLight_exact.frag` |
 //!
 //! Of the course's texture units, 0 (diffuse) and 4 (the shadow map) are in use. Back faces are culled in both passes, so
 //! that an open mesh of `--scene` neither shows nor casts from behind; of its materials, diffuse color and texture count.
@@ -21,6 +22,7 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
+mod exact_test;
 mod explain;
 mod movement;
 mod programs;
@@ -39,10 +41,11 @@ use glow::HasContext;
 use super::{
     Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
 use crate::picture::Projection;
 use crate::scene::{Beam, Light, LightKind, Object, Scene, shapes};
-use crate::{Error, Result};
+use exact_test::Exact;
 use movement::Moved;
 use programs::{Programs, SHADERS, with_shadow_test};
 use scenes::SceneGraph;
@@ -88,6 +91,8 @@ struct Aueb7 {
     /// What the shadow map was drawn from, while that still holds.
     drawn: Option<MapInputs>,
 
+    /// What only the setting shadow_test asks for.
+    exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
     explainer: Option<Program>,
@@ -138,6 +143,7 @@ impl Aueb7 {
             largest_map,
             shadow_fbo,
             drawn: None,
+            exact: None,
             visibility: None,
             explainer: None,
         };
@@ -153,19 +159,36 @@ impl Aueb7 {
         }
         let _pass = gl::pass(gl, "set-up: meshes and textures");
         let mut models = Vec::new();
+        let mut sent = gl::Textures::default();
         for (object, _) in self.geometry() {
             let name = &object.name;
             models.push(Model {
                 mesh: gl::Mesh::new(gl, name, &object.mesh)?,
                 texture: match &object.material.texture {
-                    Some(picture) => {
-                        gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?
-                    }
+                    Some(picture) => sent.of(gl, &format!("{name}_texture"), picture, || {
+                        gl::levels(picture)
+                    })?,
                     None => self.white,
                 },
             });
         }
         self.models[place] = models;
+        Ok(())
+    }
+
+    /// The shadow map in its present size, and the program that shows the test alone.
+    fn prepare_handouts_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        let size = map_size(self.largest_map, &self.settings);
+        if size != self.shadow_fbo.shadow_dimensions {
+            self.shadow_fbo.delete(gl);
+            self.shadow_fbo = create_shadow_fbo(gl, size)?;
+            self.drawn = None;
+        }
+        if self.visibility.is_none() && show != Show::Picture {
+            let program =
+                with_shadow_test(gl, &self.shaders, "visibility.frag", &["uniform_shadows"])?;
+            self.visibility = Some(program);
+        }
         Ok(())
     }
 
@@ -238,16 +261,11 @@ impl Lab for Aueb7 {
     #[doc(alias = "Render")]
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.load_models(gl)?;
-        let size = map_size(self.largest_map, &self.settings);
-        if size != self.shadow_fbo.shadow_dimensions {
-            self.shadow_fbo.delete(gl);
-            self.shadow_fbo = create_shadow_fbo(gl, size)?;
-            self.drawn = None;
-        }
-        if self.visibility.is_none() && show != Show::Picture {
-            let program =
-                with_shadow_test(gl, &self.shaders, "visibility.frag", &["uniform_shadows"])?;
-            self.visibility = Some(program);
+        if self.is_exact() {
+            self.prepare_exact_test(gl)?;
+        } else {
+            self.release_exact_test(gl);
+            self.prepare_handouts_test(gl, show)?;
         }
 
         // F1's mode holds in both passes, and is gone after them.
@@ -255,7 +273,7 @@ impl Lab for Aueb7 {
         if !is_filled {
             unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode) };
         }
-        if self.settings.switch("shadows") {
+        if self.settings.switch("shadows") && !self.is_exact() {
             let inputs = self.map_inputs();
             let redraw = self.settings.choice("redraw") == "every_frame";
             if redraw || self.drawn.as_ref() != Some(&inputs) {
@@ -263,9 +281,9 @@ impl Lab for Aueb7 {
                 self.drawn = Some(inputs);
             }
         }
-        match (show, &self.visibility) {
-            (Show::Visibility { .. }, Some(program)) => self.draw_visibility(gl, program),
-            _ => self.draw_scene(gl),
+        match show {
+            Show::Picture => self.draw_scene(gl),
+            Show::Visibility { .. } => self.draw_visibility(gl),
         }
         if !is_filled {
             unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL) };
@@ -275,6 +293,11 @@ impl Lab for Aueb7 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::load(gl, &self.shaders)?;
+        if let Some(exact) = &mut self.exact {
+            exact
+                .reload(gl, &self.shaders)
+                .inspect_err(|_| programs.delete(gl))?;
+        }
         std::mem::replace(&mut self.programs, programs).delete(gl);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
         for program in made_on_demand.into_iter().flatten() {
@@ -286,11 +309,7 @@ impl Lab for Aueb7 {
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
+        self.check_map()?;
         let Light { near, far, .. } = self.light();
         Ok(ShadowTexture {
             texture: self.shadow_fbo.fbo_shadow_texture,

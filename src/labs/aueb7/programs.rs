@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
+use crate::shadow_tests;
 
 /// The shaders, which are the lesson's other half.
 pub const SHADERS: &[(&str, &str)] = &[
@@ -38,6 +39,19 @@ pub const SHADERS: &[(&str, &str)] = &[
         "explain.frag",
         include_str!("../../../glsl/aueb7/explain.frag"),
     ),
+    (
+        "SpotLight_exact.vert",
+        include_str!("../../../glsl/aueb7/SpotLight_exact.vert"),
+    ),
+    (
+        "SpotLight_exact.frag",
+        include_str!("../../../glsl/aueb7/SpotLight_exact.frag"),
+    ),
+    (
+        "visibility_exact.frag",
+        include_str!("../../../glsl/aueb7/visibility_exact.frag"),
+    ),
+    shadow_tests::SHADERS[0],
 ];
 
 /// Uniforms of every program with the shadow test.
@@ -53,6 +67,16 @@ const SHADOW_TEST: [&str; 11] = [
     "constant_depth_bias",
     "uniform_sample_step",
     "uniform_outside",
+];
+
+/// Uniforms of the lighting.
+pub const LIGHTING: [&str; 6] = [
+    "uniform_normal_matrix_ecs",
+    "uniform_diffuse_color",
+    "uniform_ambient_color",
+    "uniform_light_color",
+    "uniform_light_position_ecs",
+    "uniform_light_direction_ecs",
 ];
 
 pub struct Programs {
@@ -73,15 +97,7 @@ impl Programs {
             "ShadowMap.frag",
             &["uniform_mvp"],
         )?;
-        let lighting = [
-            "uniform_normal_matrix_ecs",
-            "uniform_diffuse_color",
-            "uniform_ambient_color",
-            "uniform_light_color",
-            "uniform_light_position_ecs",
-            "uniform_light_direction_ecs",
-            "uniform_shadows",
-        ];
+        let lighting = [&LIGHTING[..], &["uniform_shadows"]].concat();
         let spot_light = with_shadow_test(gl, shaders, "SpotLight.frag", &lighting)
             .inspect_err(|_| shadow_map.delete(gl))?;
         let light_source = Program::new(

@@ -81,6 +81,11 @@ pub const SETTINGS: &[Setting] = &[
         help: "what lies outside of the shadow map: in shadow, as in the course, or lit",
     },
     Setting {
+        name: "shadow_test",
+        kind: Kind::Choice(&["handout", "exact"]),
+        help: "the exercises' shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no filter, no resolution",
+    },
+    Setting {
         name: "rotate_light",
         kind: Kind::Switch { default: false },
         help: "the part of Render that rotates the light, uncommented",

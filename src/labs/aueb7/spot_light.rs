@@ -13,7 +13,7 @@ use crate::scene::{Light, Object, camera};
 /// The radius of the white sphere that shows where the light is, in world units, as in the course.
 const MARKER_RADIUS: f64 = 0.2;
 /// The texture units, as in the course: 0 is an object's own, and behind the course's other maps comes the shadow map.
-const DIFFUSE: i32 = 0;
+pub const DIFFUSE: i32 = 0;
 const SHADOW_MAP: i32 = 4;
 
 impl Aueb7 {
@@ -42,14 +42,24 @@ impl Aueb7 {
     }
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
-        let _pass = gl::pass(gl, "second pass: Render");
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let _pass = gl::pass(
+            gl,
+            match exact {
+                Some(_) => "second pass: Render, with the light buffer",
+                None => "second pass: Render",
+            },
+        );
         let [red, green, blue] = self.scene().clear.as_vec3().to_array();
         self.clear_window(gl, [red, green, blue, 1.0]);
         self.draw_spot_light_source(gl);
 
-        let program = &self.programs.spot_light;
+        let program = exact.map_or(&self.programs.spot_light, |exact| &exact.spot_light);
         unsafe { gl.use_program(Some(program.handle)) };
-        self.use_shadow_map(gl, program);
+        match exact {
+            Some(exact) => self.use_light_buffer(gl, exact, program),
+            None => self.set_shadows(gl, program),
+        }
         let (light, view) = (self.light(), self.view());
         let Light {
             position,
@@ -69,12 +79,14 @@ impl Aueb7 {
             view.transform_vector3(direction.normalize()),
         );
         program.set(gl, "uniform_ambient_color", self.scene().ambient);
-        program.set(gl, "uniform_shadows", self.shadows());
         // root->draw(0): with the spotlight shader.
         let mut bound = None;
         self.draw(gl, |index, object, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
+            if let Some(exact) = exact {
+                self.set_exact_test(gl, exact, program, index, model);
+            }
             let to_eye = DMat3::from_mat4(view * self.model_from_eye(model));
             let normal_matrix = to_eye.inverse().transpose();
             program.set(gl, "uniform_normal_matrix_ecs", normal_matrix);
@@ -84,16 +96,26 @@ impl Aueb7 {
     }
 
     /// The shadow_factor alone.
-    pub(super) fn draw_visibility(&self, gl: &glow::Context, program: &Program) {
+    pub(super) fn draw_visibility(&self, gl: &glow::Context) {
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let visibility = exact.map(|exact| &exact.visibility);
+        let program = visibility
+            .or(self.visibility.as_ref())
+            .expect("a frame makes it first");
         let _pass = gl::pass(gl, "second pass: the shadow_factor alone");
         self.clear_window(gl, [1.0; 4]);
         unsafe { gl.use_program(Some(program.handle)) };
-        self.use_shadow_map(gl, program);
-        program.set(gl, "uniform_shadows", self.shadows());
+        match exact {
+            Some(exact) => self.use_light_buffer(gl, exact, program),
+            None => self.set_shadows(gl, program),
+        }
         let mut bound = None;
         self.draw(gl, |index, _, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
+            if let Some(exact) = exact {
+                self.set_exact_test(gl, exact, program, index, model);
+            }
             true
         });
     }
@@ -158,8 +180,11 @@ impl Aueb7 {
         }
     }
 
-    fn shadows(&self) -> i32 {
-        i32::from(self.settings.switch("shadows"))
+    /// Whether there are shadows, and the map that tells where.
+    fn set_shadows(&self, gl: &glow::Context, program: &Program) {
+        self.use_shadow_map(gl, program);
+        let shadows = self.settings.switch("shadows");
+        program.set(gl, "uniform_shadows", i32::from(shadows));
     }
 
     pub(super) fn set_model(&self, gl: &glow::Context, program: &Program, model: DMat4) {

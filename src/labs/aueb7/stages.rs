@@ -113,6 +113,7 @@ pub const COMPARISONS: &[Comparison] = &[
             &["map_size=128..1024", "filter=none,pcf_5,pcf_9"],
             &["map_size=512", "filter=pcf_9", "step=1,4"],
             &["map_size=512", "constant_depth_bias=0,0.001"],
+            &["shadow_test=exact"],
             &["shadows=off"],
         ],
     },
@@ -121,6 +122,7 @@ pub const COMPARISONS: &[Comparison] = &[
         set: &["scene=pirate"],
         sweeps: &[
             &["map_size=128,512,1024", "filter=none,pcf_9"],
+            &["shadow_test=exact"],
             &["shadows=off"],
         ],
     },
@@ -130,6 +132,7 @@ pub const COMPARISONS: &[Comparison] = &[
         sweeps: &[
             &["map_size=128,512,1024", "filter=none,pcf_9"],
             &["map_size=1024", "constant_depth_bias=0,0.0001"],
+            &["shadow_test=exact"],
             &["shadows=off"],
         ],
     },

@@ -62,18 +62,18 @@ pub fn to_texture() -> DMat4 {
     DMat4::from_translation(half) * DMat4::from_scale(half)
 }
 
-/// Where a program finds the eye-space vertices' way to the maps, and what the shadow test asks of the lights.
-pub const SHADOW_TEST: [&str; 9] = [
+/// Where a program finds the eye-space vertices' way to the maps, and the maps.
+pub const SHADOW_TEST: [&str; 6] = [
     "directionalTextureMatrix",
     "spotTextureMatrix",
     "directionalMap",
     "spotMap",
     "directionalBias",
     "spotBias",
-    "spotPosition",
-    "spotDirection",
-    "spotCosCutoff",
 ];
+
+/// The cone of light.
+pub const CONE: [&str; 3] = ["spotPosition", "spotDirection", "spotCosCutoff"];
 
 /// What of the lights never changes, for a program with the shadow test, which must be in use.
 pub fn set_shadow_test(
@@ -82,7 +82,6 @@ pub fn set_shadow_test(
     scene: &Scene,
     cameras: &[LightCamera; 2],
 ) {
-    let spot = &scene.lights[SPOT];
     let [directional_camera, spot_camera] = cameras;
     program.set(
         gl,
@@ -92,6 +91,12 @@ pub fn set_shadow_test(
     program.set(gl, "spotTextureMatrix", spot_camera.texture_matrix);
     program.set(gl, "directionalMap", DIRECTIONAL as i32);
     program.set(gl, "spotMap", SPOT as i32);
+    set_cone(gl, program, scene);
+}
+
+/// The cone of light, for a program that asks whether something is within it, which must be in use.
+pub fn set_cone(gl: &glow::Context, program: &Program, scene: &Scene) {
+    let spot = &scene.lights[SPOT];
     program.set(gl, "spotPosition", spot_position(scene));
     program.set(gl, "spotDirection", in_eye_space(scene, spot.direction));
     program.set(gl, "spotCosCutoff", cos_cutoff(spot));

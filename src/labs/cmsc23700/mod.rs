@@ -11,6 +11,7 @@
 //! | User interface: `-` removes a ball from the simulation | [`simulation::Simulation::kill_ball`] |
 //! | Hints: the sphere of radius √3, the orthographic projection, the texture matrix | `scene.rs`, `lights.rs`: `LightCamera` |
 //! | Hints: the shadow map on the screen, from −1 black to 1 white | [`Lab::grey`] |
+//! | no part of it: a test without a map | `exact_test.rs`; `glsl/cmsc23700/lighting_exact.frag` |
 //!
 //! Chosen, because the handout does not say it: which ball is removed (the newest), and which of the eight colours a
 //! ball has (they are given in turn); how many balls there are at the start, and both lights enabled; where the lights
@@ -22,6 +23,7 @@
 #![allow(unsafe_code)]
 
 mod balls;
+mod exact_test;
 mod explain;
 mod lights;
 mod scene;
@@ -41,8 +43,9 @@ use super::{
 use crate::gl::{self, Program, Shaders};
 use crate::picture::{Grey, Projection};
 use crate::scene::{Light, Object, Scene};
-use crate::{Error, Result};
+use crate::{Error, Result, shadow_tests};
 use balls::Balls;
+use exact_test::Exact;
 use lights::LightCamera;
 use settings::{KEYS, SETTINGS};
 use shadow_map::ShadowMap;
@@ -89,6 +92,19 @@ const SHADERS: &[(&str, &str)] = &[
         "explain.frag",
         include_str!("../../../glsl/cmsc23700/explain.frag"),
     ),
+    (
+        "lighting_exact.vert",
+        include_str!("../../../glsl/cmsc23700/lighting_exact.vert"),
+    ),
+    (
+        "lighting_exact.frag",
+        include_str!("../../../glsl/cmsc23700/lighting_exact.frag"),
+    ),
+    (
+        "visibility_exact.frag",
+        include_str!("../../../glsl/cmsc23700/visibility_exact.frag"),
+    ),
+    shadow_tests::SHADERS[0],
 ];
 
 /// The lights' numbers in the scene, and their texture units.
@@ -117,6 +133,8 @@ struct Cmsc23700 {
     /// The most texels that the driver allows along a side.
     largest_map: u32,
 
+    /// What only the setting shadow_test asks for.
+    exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
     explainer: Option<Program>,
@@ -175,6 +193,7 @@ impl Cmsc23700 {
             programs,
             shadow_maps,
             largest_map,
+            exact: None,
             visibility: None,
             explainer: None,
         };
@@ -223,6 +242,24 @@ impl Cmsc23700 {
     fn draw(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.match_balls();
         self.balls.take_positions(gl, &self.simulation);
+        if self.is_exact() {
+            self.prepare_exact_tests(gl)?;
+        } else {
+            self.release_exact_tests(gl);
+            self.prepare_shadow_maps(gl)?;
+        }
+        match show {
+            Show::Picture => self.draw_picture(gl),
+            Show::Visibility { light } => {
+                self.check_light(light)?;
+                self.draw_visibility(gl, light)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The shadow maps, drawn anew where the last ones do not serve on.
+    fn prepare_shadow_maps(&mut self, gl: &glow::Context) -> Result<()> {
         let size = self
             .largest_map
             .min(self.settings.number("map_size") as u32);
@@ -234,13 +271,6 @@ impl Cmsc23700 {
         }
         if self.settings.switch("shadows") {
             self.draw_shadow_maps(gl);
-        }
-        match show {
-            Show::Picture => self.draw_picture(gl),
-            Show::Visibility { light } => {
-                self.check_light(light)?;
-                self.draw_visibility(gl, light)?;
-            }
         }
         Ok(())
     }
@@ -316,6 +346,14 @@ impl Lab for Cmsc23700 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::new(gl, &self.shaders)?;
+        if let Some(exact) = &mut self.exact {
+            exact
+                .reload(gl, &self.shaders, &self.scene)
+                .inspect_err(|_| {
+                    programs.shadow.delete(gl);
+                    programs.lighting.delete(gl);
+                })?;
+        }
         let old = std::mem::replace(&mut self.programs, programs);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
         let others = made_on_demand.iter().flatten();
@@ -343,11 +381,7 @@ impl Lab for Cmsc23700 {
 
     fn shadow_texture(&self, light: usize) -> Result<ShadowTexture> {
         self.check_light(light)?;
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
+        self.check_map()?;
         let number = light - 1;
         let map = &self.shadow_maps[number];
         let Light { near, far, .. } = self.scene.lights[number];

@@ -6,7 +6,7 @@
 use glam::{DMat3, DMat4};
 use glow::HasContext;
 
-use super::lights::{self, LIGHTING, SHADOW_TEST};
+use super::lights::{self, CONE, LIGHTING, SHADOW_TEST};
 use super::{Cmsc23700, DIRECTIONAL, SPOT};
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
@@ -14,7 +14,7 @@ use crate::gl::{self, Program, Shaders};
 use crate::scene::{Object, camera};
 
 /// Uniforms that every program with the shadow test has.
-const MATRICES: [&str; 2] = ["modelView", "projection"];
+pub const MATRICES: [&str; 2] = ["modelView", "projection"];
 
 pub fn lighting_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
     let _pass = gl::pass(gl, "set-up: the lighting program");
@@ -41,7 +41,7 @@ pub fn with_shadow_test(
     fragment: &str,
     others: &[&'static str],
 ) -> Result<Program> {
-    let uniforms = [&MATRICES[..], &SHADOW_TEST, others].concat();
+    let uniforms = [&MATRICES[..], &SHADOW_TEST, &CONE, others].concat();
     Program::new(gl, shaders, "lighting.vert", fragment, &uniforms)
 }
 
@@ -72,24 +72,33 @@ impl Cmsc23700 {
     }
 
     pub(super) fn draw_picture(&self, gl: &glow::Context) {
-        let _pass = gl::pass(gl, "second pass");
-        let program = &self.programs.lighting;
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let _pass = gl::pass(
+            gl,
+            match exact {
+                Some(_) => "second pass: with the light buffers",
+                None => "second pass",
+            },
+        );
+        let program = exact.map_or(&self.programs.lighting, |exact| &exact.lighting);
         let [directional, spot] = self.enabled().map(i32::from);
-        let shadows = self.settings.switch("shadows");
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [red, green, blue, 1.0]);
-        if shadows {
-            self.use_shadow_maps(gl, program);
+        match exact {
+            Some(exact) => self.use_light_buffers(gl, exact, program),
+            None => self.set_shadows(gl, program),
         }
-        program.set(gl, "shadows", i32::from(shadows));
         program.set(gl, "directionalEnabled", directional);
         program.set(gl, "spotEnabled", spot);
         program.set(gl, "projection", self.projection());
         self.draw_scene(
             gl,
             |_| true,
-            |model| {
+            |number, model| {
+                if let Some(exact) = exact {
+                    self.set_exact_test(gl, exact, program, number, model);
+                }
                 let model_view = self.model_view(model);
                 let normal_matrix = DMat3::from_mat4(model_view).inverse().transpose();
                 program.set(gl, "modelView", model_view);
@@ -100,7 +109,7 @@ impl Cmsc23700 {
 
     /// The shadow test alone, for a light counted from 1.
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context, light: usize) -> Result<()> {
-        if self.visibility.is_none() {
+        if self.visibility.is_none() && !self.is_exact() {
             let _pass = gl::pass(gl, "set-up: the visibility program");
             let own = ["shadows", "light"];
             let program = with_shadow_test(gl, &self.shaders, "visibility.frag", &own)?;
@@ -108,21 +117,27 @@ impl Cmsc23700 {
             lights::set_shadow_test(gl, &program, &self.scene, &self.light_cameras);
             self.visibility = Some(program);
         }
-        let program = self.visibility.as_ref().expect("made above");
+        let exact = self.exact.as_ref().filter(|_| self.is_exact());
+        let visibility = exact.map(|exact| &exact.visibility);
+        let program = visibility.or(self.visibility.as_ref()).expect("made above");
         let _pass = gl::pass(gl, "second pass: the test alone");
-        let shadows = self.settings.switch("shadows");
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [1.0; 4]);
-        if shadows {
-            self.use_shadow_maps(gl, program);
+        match exact {
+            Some(exact) => self.use_light_buffers(gl, exact, program),
+            None => self.set_shadows(gl, program),
         }
-        program.set(gl, "shadows", i32::from(shadows));
         program.set(gl, "light", light as i32);
         program.set(gl, "projection", self.projection());
         self.draw_scene(
             gl,
             |_| true,
-            |model| program.set(gl, "modelView", self.model_view(model)),
+            |number, model| {
+                if let Some(exact) = exact {
+                    self.set_exact_test(gl, exact, program, number, model);
+                }
+                program.set(gl, "modelView", self.model_view(model));
+            },
         );
         Ok(())
     }
@@ -139,6 +154,15 @@ impl Cmsc23700 {
             gl.clear_color(red, green, blue, alpha);
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
         }
+    }
+
+    /// Whether there are shadows, and the maps that tell where.
+    fn set_shadows(&self, gl: &glow::Context, program: &Program) {
+        let shadows = self.settings.switch("shadows");
+        if shadows {
+            self.use_shadow_maps(gl, program);
+        }
+        program.set(gl, "shadows", i32::from(shadows));
     }
 
     /// The map of each enabled light on its own texture unit, and the light's bias.
@@ -160,31 +184,24 @@ impl Cmsc23700 {
         }
     }
 
-    /// Everything once: the objects that are `wanted`, by their numbers, and then all balls. Before the first one and
-    /// where it changes, `set_model` is given the matrix from object space to world space.
+    /// Everything once: the objects that are `wanted`, by their numbers, and then all balls, which have the next number.
+    /// Before each `set_model` is given its number and the matrix from object space to world space.
     pub(super) fn draw_scene(
         &self,
         gl: &glow::Context,
         wanted: impl Fn(usize) -> bool,
-        set_model: impl Fn(DMat4),
+        set_model: impl Fn(usize, DMat4),
     ) {
-        let mut present = None;
-        let mut set = |model: DMat4| {
-            if present != Some(model) {
-                set_model(model);
-                present = Some(model);
-            }
-        };
         let objects = &self.scene.objects;
         for (number, (object, mesh)) in objects.iter().zip(&self.meshes).enumerate() {
             if wanted(number) {
-                set(self.model(object));
+                set_model(number, self.model(object));
                 mesh.draw(gl);
             }
         }
         if !self.balls.positions().is_empty() && wanted(objects.len()) {
             // Their places are told in the world itself.
-            set(DMat4::IDENTITY);
+            set_model(objects.len(), DMat4::IDENTITY);
             self.balls.draw(gl);
         }
     }

@@ -66,6 +66,11 @@ pub const SETTINGS: &[Setting] = &[
         help: "the same for the spotlight, whose depths lie closer together away from it",
     },
     Setting {
+        name: "shadow_test",
+        kind: Kind::Choice(&["handout", "exact"]),
+        help: "the handout's shadow maps, or the ray to each light against every triangle that it can meet: no map, no bias, no resolution",
+    },
+    Setting {
         name: "redraw",
         kind: Kind::Choice(&["when_changed", "every_frame"]),
         help: "a shadow map is drawn when a ball has moved, or in every frame as in the handout",

@@ -157,7 +157,7 @@ impl Cmsc23700 {
             self.draw_scene(
                 gl,
                 |number| self.scene.objects.get(number).is_none_or(|o| o.casts),
-                |model| {
+                |_, model| {
                     let matrix = camera.model_view_projection(model);
                     program.set(gl, "lightModelViewProjection", matrix);
                 },

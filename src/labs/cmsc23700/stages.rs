@@ -68,12 +68,17 @@ pub const COMPARISONS: &[Comparison] = &[
             &["map_size=256..4096"],
             &["directional_bias=0", "spot_bias=0"],
             &["directional_bias=0.01", "spot_bias=0.01"],
+            &["shadow_test=exact"],
             &["shadows=off"],
         ],
     },
     Comparison {
         title: "a hundred balls",
         set: &["balls=100"],
-        sweeps: &[&["map_size=512..2048"], &["shadows=off"]],
+        sweeps: &[
+            &["map_size=512..2048"],
+            &["shadow_test=exact"],
+            &["shadows=off"],
+        ],
     },
 ];

@@ -4,10 +4,18 @@ use super::Cs541;
 use super::programs::{exact_lighting_program, exact_visibility_program};
 use crate::Result;
 use crate::gl::{Program, Shaders};
-use crate::shadow_tests::exact::ExactTest;
+use crate::shadow_tests::exact::{Binding, Builder, ExactTest, LIGHT_BUFFER};
+
+const BINDING: Binding = Binding {
+    pass: "the light buffer",
+    uniforms: LIGHT_BUFFER,
+    // Before it are the object's texture and the shadow map.
+    first_unit: 2,
+};
 
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Exact {
+    builder: Builder,
     pub test: ExactTest,
     pub lighting: Program,
     pub visibility: Program,
@@ -19,7 +27,8 @@ impl Exact {
         let visibility =
             exact_visibility_program(gl, shaders).inspect_err(|_| lighting.delete(gl))?;
         Ok(Self {
-            test: ExactTest::new(gl)?,
+            builder: Builder::default(),
+            test: ExactTest::new(gl, &BINDING)?,
             lighting,
             visibility,
         })
@@ -45,7 +54,17 @@ impl Cs541 {
         let every_frame = self.settings.choice("redraw") == "every_frame";
         let (light, scene) = (self.set_light(), self.placed());
         let exact = self.exact.as_mut().expect("made above");
-        exact.test.prepare(gl, &light, scene, every_frame)
+        let Exact { builder, test, .. } = exact;
+        test.prepare(gl, builder, &light, scene, every_frame)
+    }
+
+    /// Gives the light buffer back once another test is chosen.
+    pub(super) fn release_exact_test(&mut self, gl: &glow::Context) {
+        let is_chosen = self.settings.choice("shadow_test") == "exact";
+        let exact = self.exact.as_mut().filter(|_| !is_chosen);
+        if let Some(exact) = exact {
+            exact.test.release(gl);
+        }
     }
 
     /// What every program with the exact test needs: the eye's camera, the light buffer, the beam.

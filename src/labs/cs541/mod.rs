@@ -107,11 +107,9 @@ impl Cs541 {
         let shadow_buffer = ShadowBuffer::new(gl, kind)?;
         // The driver compiles on one core; the textures' smaller levels need no driver and are averaged on another.
         let pictures = scene.objects.iter().map(|object| &object.material.texture);
-        let pictures: Vec<_> = pictures.chain([&scene.sky]).collect();
-        let (programs, mut levels) = std::thread::scope(|scope| {
-            let levels = pictures
-                .iter()
-                .map(|picture| picture.as_deref().map(gl::levels));
+        let pictures = gl::distinct(pictures.chain([&scene.sky]).flatten());
+        let (programs, levels) = std::thread::scope(|scope| {
+            let levels = pictures.iter().map(|picture| gl::levels(picture));
             let levels = scope.spawn(|| levels.collect::<Vec<_>>());
             let programs = Programs::new(gl, &shaders);
             (
@@ -125,18 +123,21 @@ impl Cs541 {
         let white = gl::solid_texture(gl)?;
         let mut meshes = Vec::new();
         let mut textures = Vec::new();
-        let sky_levels = levels.pop().flatten();
-        for (object, levels) in scene.objects.iter().zip(&levels) {
+        let mut sent = gl::Textures::default();
+        let mut levels = levels.into_iter();
+        let mut next = || levels.next().expect("each picture was averaged");
+        for object in &scene.objects {
             meshes.push(gl::Mesh::new(gl, &object.name, &object.mesh)?);
-            textures.push(match levels {
-                Some(levels) => gl::texture(gl, &format!("{}_texture", object.name), levels)?,
+            let name = format!("{}_texture", object.name);
+            textures.push(match &object.material.texture {
+                Some(picture) => sent.of(gl, &name, picture, &mut next)?,
                 None => white,
             });
         }
         let sky = Sky {
             dome: gl::Mesh::new(gl, "dome", &shapes::sphere(20))?,
-            texture: match &sky_levels {
-                Some(levels) => Some(gl::texture(gl, "sky_texture", levels)?),
+            texture: match &scene.sky {
+                Some(picture) => Some(sent.of(gl, "sky_texture", picture, &mut next)?),
                 None => None,
             },
             marker_texture: white,

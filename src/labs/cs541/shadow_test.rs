@@ -26,6 +26,7 @@ impl Cs541 {
     }
 
     pub(super) fn prepare_shadow_test(&mut self, gl: &glow::Context) -> Result<()> {
+        self.release_exact_test(gl);
         match self.chosen_test() {
             "exact" => self.prepare_exact_test(gl),
             "offset" => self.prepare_offset_test(gl),

@@ -4,13 +4,21 @@ use super::Csci3260;
 use super::basic_shader::{SHADING, VERTEX_SHADER};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::exact::{self, ExactTest};
+use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER};
 
 /// Uniforms of the exact shadow test, and of the vertex shader as far as the test needs it.
 const TEST: [&str; 3] = ["MVP", "DepthBiasMVP", "firstTriangle"];
 
+const BINDING: Binding = Binding {
+    pass: "the light buffer",
+    uniforms: LIGHT_BUFFER,
+    // Before it are the object's texture and the shadow map.
+    first_unit: 2,
+};
+
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Exact {
+    builder: Builder,
     pub test: ExactTest,
     pub basic: Program,
     pub visibility: Program,
@@ -20,7 +28,8 @@ impl Exact {
     fn new(gl: &glow::Context, shaders: &Shaders) -> Result<Self> {
         let [basic, visibility] = install(gl, shaders)?;
         Ok(Self {
-            test: ExactTest::new(gl)?,
+            builder: Builder::default(),
+            test: ExactTest::new(gl, &BINDING)?,
             basic,
             visibility,
         })
@@ -39,7 +48,7 @@ impl Exact {
 fn install(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let _pass = gl::pass(gl, "set-up: the programs with the exact test");
     let linked = |fragment: &str, others: &[&'static str]| {
-        let uniforms = [&TEST[..], &exact::LIGHT_BUFFER, others].concat();
+        let uniforms = [&TEST[..], &LIGHT_BUFFER, others].concat();
         let fragments = [fragment, exact::SHADER];
         Program::linked(gl, shaders, VERTEX_SHADER, &fragments, &uniforms)
     };
@@ -58,6 +67,16 @@ impl Csci3260 {
         let every_frame = self.settings.choice("redraw") == "every_frame";
         let (light, scene) = (self.light().clone(), self.placed());
         let exact = self.exact.as_mut().expect("made above");
-        exact.test.prepare(gl, &light, scene, every_frame)
+        let Exact { builder, test, .. } = exact;
+        test.prepare(gl, builder, &light, scene, every_frame)
+    }
+
+    /// Gives the light buffer back once another test is chosen.
+    pub(super) fn release_exact_test(&mut self, gl: &glow::Context) {
+        let is_chosen = self.settings.choice("shadow_test") == "exact";
+        let exact = self.exact.as_mut().filter(|_| !is_chosen);
+        if let Some(exact) = exact {
+            exact.test.release(gl);
+        }
     }
 }

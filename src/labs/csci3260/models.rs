@@ -37,10 +37,13 @@ impl Model {
     ) -> Result<Vec<Self>> {
         let mut models: Vec<Self> = Vec::new();
         let white = gl::solid_texture(gl)?;
+        let mut sent = gl::Textures::default();
         for (object, index) in scene.objects.iter().zip(0..) {
             let name = &object.name;
             let mut textures = vec![match &object.material.texture {
-                Some(picture) => gl::texture(gl, &format!("{name}_texture"), &gl::levels(picture))?,
+                Some(picture) => sent.of(gl, &format!("{name}_texture"), picture, || {
+                    gl::levels(picture)
+                })?,
                 None => white,
             }];
             if let Some(file) = others(name) {

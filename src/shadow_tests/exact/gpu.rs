@@ -15,29 +15,36 @@ use crate::scene::{Light, LightKind};
 use crate::shadow_tests::{LightSpace, Placed};
 use crate::{Error, Result};
 
-/// The uniforms of `exact.frag`.
-pub const LIGHT_BUFFER: [&str; 5] = [
-    "light_buffer_cells",
-    "light_buffer_lists",
-    "light_buffer_casters",
-    "light_buffer_rectangle",
-    "light_buffer_side",
-];
+/// What a light buffer is called, and where it is bound.
+pub struct Binding {
+    /// The pass that builds it.
+    pub pass: &'static str,
+    /// The parts of the `LightBuffer` of `exact.frag`, in its order.
+    pub uniforms: [&'static str; 5],
+    /// The first of three texture units that nothing else has.
+    pub first_unit: u32,
+}
 
-/// The texture unit of the first of the three: before it are the object's texture and the shadow map.
-const FIRST_UNIT: u32 = 2;
+/// The uniforms of a lab's only light buffer.
+pub const LIGHT_BUFFER: [&str; 5] = [
+    "light_buffer.cells",
+    "light_buffer.lists",
+    "light_buffer.casters",
+    "light_buffer.rectangle",
+    "light_buffer.side",
+];
 
 /// A caster's number goes through a float.
 const MOST_TRIANGLES: u32 = (1 << 24) - 1;
 
-/// A light buffer in the driver, and how it is made anew.
+/// A light buffer in the driver.
 pub struct ExactTest {
-    builder: Builder,
+    binding: &'static Binding,
     textures: [BufferTexture; 3],
     /// `GL_MAX_TEXTURE_BUFFER_SIZE`.
     most_texels: usize,
     /// What it was built from, while that still holds; and what the shader is told of it.
-    built: Option<(Inputs, Uniforms)>,
+    built: Option<(Inputs, Values)>,
 }
 
 /// Everything that decides what the light buffer holds.
@@ -49,7 +56,8 @@ struct Inputs {
     scene: Vec<Placed>,
 }
 
-struct Uniforms {
+/// What a program is told beside the textures.
+struct Values {
     rectangle: DVec4,
     side: i32,
     space: LightSpace,
@@ -67,16 +75,17 @@ struct BufferTexture {
 }
 
 impl ExactTest {
-    pub fn new(gl: &glow::Context) -> Result<Self> {
+    pub fn new(gl: &glow::Context, binding: &'static Binding) -> Result<Self> {
+        let [cells, lists, casters, ..] = binding.uniforms;
         let [cells, lists, casters] = [
-            ("light_buffer_cells", glow::RGBA32UI, 16),
-            ("light_buffer_lists", glow::R32UI, 4),
-            ("light_buffer_casters", glow::RGBA32F, 16),
+            (cells, glow::RGBA32UI, 16),
+            (lists, glow::R32UI, 4),
+            (casters, glow::RGBA32F, 16),
         ]
         .map(|(name, internal_format, texel)| BufferTexture::new(gl, name, internal_format, texel));
         let most_texels = unsafe { gl.get_parameter_i32(glow::MAX_TEXTURE_BUFFER_SIZE) };
         Ok(Self {
-            builder: Builder::default(),
+            binding,
             textures: [cells?, lists?, casters?],
             most_texels: most_texels as usize,
             built: None,
@@ -88,6 +97,7 @@ impl ExactTest {
     pub fn prepare(
         &mut self,
         gl: &glow::Context,
+        builder: &mut Builder,
         light: &Light,
         scene: Vec<Placed>,
         always: bool,
@@ -103,52 +113,69 @@ impl ExactTest {
             self.built = Some(built);
             return Ok(());
         }
-        let _pass = gl::pass(gl, "the light buffer");
-        let light_buffer = self.builder.build(light, &inputs.scene);
+        let _pass = gl::pass(gl, self.binding.pass);
+        let light_buffer = builder.build(light, &inputs.scene);
         let Layout {
             least, scale, side, ..
         } = light_buffer.layout;
-        let uniforms = Uniforms {
+        let values = Values {
             rectangle: least.extend(scale.x).extend(scale.y),
             side: side as i32,
             space: light_buffer.space,
             first_triangles: light_buffer.first_triangles.clone(),
         };
         upload(gl, &mut self.textures, light_buffer, self.most_texels)?;
-        self.built = Some((inputs, uniforms));
+        self.built = Some((inputs, values));
         Ok(())
     }
 
-    fn uniforms(&self) -> &Uniforms {
-        let (_, uniforms) = self
+    /// Gives the memory back, while another test is in use.
+    pub fn release(&mut self, gl: &glow::Context) {
+        self.built = None;
+        for texture in &mut self.textures {
+            texture.release(gl);
+        }
+    }
+
+    fn values(&self) -> &Values {
+        let (_, values) = self
             .built
             .as_ref()
             .expect("a frame prepares the test first");
-        uniforms
+        values
     }
 
     /// Object space to the light's.
     pub fn from_object(&self, model: DMat4) -> DMat4 {
-        self.uniforms().space.from_object(model)
+        self.values().space.from_object(model)
     }
 
     /// The number of the first triangle of what is drawn in this place.
     pub fn first_triangle(&self, place: usize) -> i32 {
-        self.uniforms().first_triangles[place] as i32
+        self.values().first_triangles[place] as i32
+    }
+
+    /// Tells a program, which must be in use, where the textures are, whether or not there is anything in them: units of
+    /// samplers of several kinds must not be the same.
+    pub fn set_units(&self, gl: &glow::Context, program: &Program) {
+        for (texture, unit) in self.textures.iter().zip(self.binding.first_unit..) {
+            program.set(gl, texture.name, unit as i32);
+        }
     }
 
     /// Binds the textures for a program, which must be in use.
     pub fn bind(&self, gl: &glow::Context, program: &Program) {
-        for (texture, unit) in self.textures.iter().zip(FIRST_UNIT..) {
+        self.set_units(gl, program);
+        for (texture, unit) in self.textures.iter().zip(self.binding.first_unit..) {
             unsafe {
                 gl.active_texture(glow::TEXTURE0 + unit);
                 gl.bind_texture(glow::TEXTURE_BUFFER, Some(texture.texture));
             }
-            program.set(gl, texture.name, unit as i32);
         }
-        let uniforms = self.uniforms();
-        program.set(gl, "light_buffer_rectangle", uniforms.rectangle);
-        program.set(gl, "light_buffer_side", uniforms.side);
+        let [.., rectangle, side] = self.binding.uniforms;
+        let values = self.values();
+        program.set(gl, rectangle, values.rectangle);
+        program.set(gl, side, values.side);
     }
 }
 
@@ -220,6 +247,15 @@ impl BufferTexture {
         }
         Ok(())
     }
+
+    fn release(&mut self, gl: &glow::Context) {
+        if std::mem::take(&mut self.capacity) > 0 {
+            unsafe {
+                gl.bind_buffer(glow::TEXTURE_BUFFER, Some(self.buffer));
+                gl.buffer_data_size(glow::TEXTURE_BUFFER, 0, glow::DYNAMIC_DRAW);
+            }
+        }
+    }
 }
 
 /// GL 3.3 promises 65,536 texels in a buffer texture, and no more.
@@ -239,10 +275,10 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_told() {
-        assert!(check_size("light_buffer_cells", 65_536, 65_536).is_ok());
-        let refused = check_size("light_buffer_cells", 65_537, 65_536).unwrap_err();
+        assert!(check_size("light_buffer.cells", 65_536, 65_536).is_ok());
+        let refused = check_size("light_buffer.cells", 65_537, 65_536).unwrap_err();
         for word in [
-            "light_buffer_cells",
+            "light_buffer.cells",
             "65537",
             "65536",
             "shadow_test=handout",

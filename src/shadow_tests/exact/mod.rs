@@ -20,7 +20,8 @@
 //! What faces away from the light: a triangle that casts is in its own shadow there, so visibility is 0; one that casts
 //! on nothing (a floor under everything, seen from below) is not asked about, and visibility is 1. In the picture both
 //! are as dark as the lab's shading makes them; only where smooth normals face the light and their triangle does not, the
-//! first rule is seen: without it the terminator would be lit in patches.
+//! first rule is seen: without it the terminator would be lit in patches. (And in cmsc23700, whose shadows darken a
+//! light's ambient part, too.)
 //!
 //! What it cannot see: a camera inside a closed solid, which the light is outside of, sees what else is in there lit.
 //! Of a closed solid only the far side casts, and there it has none behind it.
@@ -31,7 +32,7 @@ mod gpu;
 mod grid;
 
 pub use builder::{Builder, LightBuffer};
-pub use gpu::{ExactTest, LIGHT_BUFFER};
+pub use gpu::{Binding, ExactTest, LIGHT_BUFFER};
 pub use grid::{Cell, Layout};
 
 /// The file of [`super::SHADERS`].

@@ -67,6 +67,11 @@ impl Aueb7 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
+        if self.is_exact() {
+            return Err(Error::usage(
+                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
+            ));
+        }
         if self.polygon_mode != glow::FILL {
             return Err(Error::usage(
                 "F1 has chosen wireframe or points, expected the filled surfaces that are explained",

@@ -124,7 +124,7 @@ impl Cmsc23700 {
                 program.set(gl, "objectNumber", number as i32 + 1);
                 only.is_none_or(|only| only == number)
             },
-            |model| program.set(gl, "modelView", self.model_view(model)),
+            |_, model| program.set(gl, "modelView", self.model_view(model)),
         );
         unsafe { gl.disable(glow::SCISSOR_TEST) };
         f64::from(gl::read_float_in_bytes(gl, [x, row]))

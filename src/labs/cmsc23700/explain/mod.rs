@@ -68,6 +68,11 @@ impl Cmsc23700 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
+        if self.is_exact() {
+            return Err(Error::usage(
+                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
+            ));
+        }
         probe.check(self.size)
     }
 
