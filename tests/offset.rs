@@ -131,6 +131,10 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
     let of_the_test = [
         "first_triangle",
         "firstTriangle",
+        "LightBuffer",
+        "samplerBuffer",
+        "vec4 rectangle;",
+        "int side;",
         "is_in_shadow_of",
         "light_share_of",
         "normal_lcs",
