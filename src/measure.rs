@@ -217,12 +217,13 @@ impl<'a> Measure<'a> {
     /// How large a texel is where a point is, right and up across the light's axis.
     fn texel_size_at(&self, point: DVec3, map: &MapScale) -> [f64; 2] {
         let source = &self.rays.source;
-        let texels = f64::from(map.size);
+        let [right, up] = map.share.map(|share| share / f64::from(map.size));
         match source.map_width() {
             MapWidth::AtDistance1(width) => {
-                [(point - source.position).dot(source.axis) * (width / texels); 2]
+                let width = (point - source.position).dot(source.axis) * width;
+                [width * right, width * up]
             }
-            MapWidth::Everywhere(size) => size.map(|length| length / texels),
+            MapWidth::Everywhere([width, height]) => [width * right, height * up],
         }
     }
 

@@ -46,6 +46,7 @@ fn visibility_is_the_shadow_test_of_the_lighting_shader() {
         "light=point",
         "beam=circular",
         "depth_format=16",
+        "shadow_test=offset",
         "shadow_test=exact",
     ] {
         let mut bench = Bench::new("cs541", SIZE, &[setting]);
@@ -245,6 +246,8 @@ fn every_setting_is_read() {
         (&[], "remedy=both"),
         (&[], "epsilon=0.01"),
         (&["remedy=culling"], "second_plane=on"),
+        (&[], "shadow_test=offset"),
+        (&["shadow_test=offset"], "map_size=300"),
         (&[], "shadow_test=exact"),
         (&[], "shadows=off"),
     ] {

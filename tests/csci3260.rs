@@ -66,7 +66,8 @@ fn differs_from_foretold(
 #[test]
 fn visibility_is_the_shadow_test_of_the_shading() {
     let stages = STAGES.map(|stage| format!("stage={stage}"));
-    for stage in stages.into_iter().chain(["shadow_test=exact".to_owned()]) {
+    let others = ["shadow_test=offset", "shadow_test=exact"].map(str::to_owned);
+    for stage in stages.into_iter().chain(others) {
         let mut bench = with_scene(course(), &[&stage]);
         let visibility = bench.visibility();
         let picture = bench.picture();
@@ -280,6 +281,9 @@ fn every_setting_is_read() {
         (room, "bias=0.02"),
         (&["scene=room", "stage=slope"], "bias=0.02"),
         (room, "map_size=256"),
+        (room, "shadow_test=offset"),
+        (&["scene=room", "shadow_test=offset"], "stage=pcf"),
+        (&["scene=room", "shadow_test=offset"], "stage=thick"),
         (room, "shadow_test=exact"),
         (room, "shadows=off"),
     ] {
@@ -287,6 +291,10 @@ fn every_setting_is_read() {
     }
     // The control: what has no say in a stage without bias.
     assert!(!changes(&["stage=no_bias"], "bias=0.02"));
+    for without_effect in ["bias=0.02", "stage=slope", "stage=culling"] {
+        let offset = ["scene=room", "shadow_test=offset"];
+        assert!(!changes(&offset, without_effect), "{without_effect}");
+    }
 
     let mut spinning = course();
     spinning.objects[0].spin = Some(Spin {

@@ -42,7 +42,7 @@ const PAIRS: &[Pair] = &[
     },
     Pair {
         handouts: "cs541/lighting.vert",
-        exact: "cs541/lighting_exact.vert",
+        exact: "cs541/lighting_lcs.vert",
         words: &[
             "shadow_",
             "position_lcs",

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use calls::{Line, in_pass, parse_c};
 use common::Bench;
 use shadowlab::gl::trace;
-use shadowlab::labs::{Handout, LABS};
+use shadowlab::labs::{Handout, Kind, LABS, Setting};
 
 /// A lab in a state, with the passes of its frame and the draws of each.
 struct Case {
@@ -48,6 +48,33 @@ const CASES: &[Case] = &[
         passes: &[
             ("the light buffer", 0),
             ("second pass: using the light buffer", 16),
+        ],
+    },
+    Case {
+        lab: "cs541",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            // The floor casts on nothing.
+            ("first pass: drawing the fitted shadow map", 13),
+            ("second pass: using the fitted shadow map", 16),
+        ],
+    },
+    Case {
+        lab: "csci3260",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            // The sea casts on nothing.
+            ("rendering the fitted shadow map", 1),
+            ("using the fitted shadow map", 2),
+        ],
+    },
+    Case {
+        lab: "csci3260",
+        settings: &["redraw=every_frame", "shadow_test=offset", "scene=room"],
+        passes: &[
+            // The ground casts on nothing.
+            ("rendering the fitted shadow map", 3),
+            ("using the fitted shadow map", 4),
         ],
     },
     Case {
@@ -183,7 +210,7 @@ fn sets(line: &Line, now: &HashMap<String, String>) -> Option<(String, String)> 
         "glUseProgram" | "glBindVertexArray" | "glViewport" | "glActiveTexture"
         | "glClearColor" | "glCullFace" | "glDepthFunc" | "glDepthMask" | "glColorMask"
         | "glPolygonMode" | "glDepthRange" | "glStencilFunc" | "glStencilOp" | "glBlendFunc"
-        | "glBlendColor" | "glStencilMask" => name.to_owned(),
+        | "glBlendColor" | "glStencilMask" | "glPolygonOffset" => name.to_owned(),
         "glBindFramebuffer" | "glBindBuffer" => format!("{name} {}", line.args[0]),
         "glBindTexture" => format!("{name} {:?} {}", now.get("glActiveTexture"), line.args[0]),
         "glEnable" | "glDisable" => return Some((args, name.to_owned())),
@@ -289,11 +316,24 @@ fn superfluous_calls_are_found() {
 #[test]
 fn at_rest_there_is_no_shadow_pass() {
     let has = |lab: &Handout, name: &str| lab.settings.iter().any(|setting| setting.name == name);
+    let offers = |lab: &Handout, test: &str| {
+        let offers = |setting: &Setting| match setting.kind {
+            Kind::Choice(choices) => setting.name == "shadow_test" && choices.contains(&test),
+            _ => false,
+        };
+        lab.settings.iter().any(offers)
+    };
     let own = LABS.iter().filter(|lab| has(lab, "redraw"));
     let own = own.map(|lab| (lab, &[][..]));
-    let exact = LABS.iter().filter(|lab| has(lab, "shadow_test"));
-    let exact = exact.map(|lab| (lab, &["shadow_test=exact"][..]));
-    for (lab, test) in own.chain(exact) {
+    let others = ["offset", "exact"].into_iter().flat_map(|test| {
+        let assignment: &[&str] = match test {
+            "offset" => &["shadow_test=offset"],
+            _ => &["shadow_test=exact"],
+        };
+        let tested = LABS.iter().filter(move |lab| offers(lab, test));
+        tested.map(move |lab| (lab, assignment))
+    });
+    for (lab, test) in own.chain(others) {
         let mut bench = Bench::recorded(lab.name, [64, 64], test);
         let mut calls = || {
             bench.render();

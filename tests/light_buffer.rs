@@ -10,7 +10,8 @@ use glam::{Vec2, Vec3, Vec3Swizzles};
 use hard::{Case, cases};
 use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
 use shadowlab::scene::Scene;
-use shadowlab::shadow_tests::exact::{Builder, DARK, FACES_LIGHT, LightBuffer, Placed, Rays};
+use shadowlab::shadow_tests::exact::{Builder, DARK, FACES_LIGHT, LightBuffer};
+use shadowlab::shadow_tests::{Placed, Rays};
 
 const SIZE: [u32; 2] = [320, 240];
 

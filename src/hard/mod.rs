@@ -54,7 +54,8 @@ pub struct Test {
     pub rule: Expected,
 }
 
-/// The handouts' tests, none of which holds everywhere: their rule is no more than to be shown. And the exact one.
+/// The handouts' tests, none of which holds everywhere: their rule is no more than to be shown. The offset test, which
+/// holds wherever one map sees what casts. And the exact one.
 pub const TESTS: &[Test] = &[
     handout("cs541", "remedy=none filter=nearest"),
     handout("cs541", "remedy=epsilon"),
@@ -65,6 +66,9 @@ pub const TESTS: &[Test] = &[
     handout("csci3260", "stage=slope"),
     handout("csci3260", "stage=culling"),
     handout("csci3260", "stage=pcf"),
+    offset("cs541", "shadow_test=offset"),
+    offset("csci3260", "shadow_test=offset"),
+    offset("csci3260", "shadow_test=offset stage=pcf"),
     exact("cs541"),
     exact("csci3260"),
 ];
@@ -74,6 +78,14 @@ const fn handout(lab: &'static str, settings: &'static str) -> Test {
         lab,
         settings,
         rule: Expected::Shown,
+    }
+}
+
+const fn offset(lab: &'static str, settings: &'static str) -> Test {
+    Test {
+        lab,
+        settings,
+        rule: Expected::Holds(0, 0),
     }
 }
 

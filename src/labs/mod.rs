@@ -168,6 +168,8 @@ pub struct ShadowTexture {
 pub struct MapScale {
     /// Texels across the map, which is square.
     pub size: u32,
+    /// How much of the light's field of view (or of its box) lies across the map, right and up: 1 is all of it.
+    pub share: [f64; 2],
     /// Whether depths grow evenly with the distance.
     pub projection: Projection,
     /// Near and far plane of the camera that it was drawn from.

@@ -93,6 +93,23 @@ pub fn perspective(fov: f64, aspect: f64, near: f64, far: Option<f64>) -> DMat4 
     )
 }
 
+/// Camera space to clip space through a window that need not be around the camera's axis: `glFrustum`, of the window left,
+/// right, bottom, top at distance 1.
+pub fn frustum([left, right, bottom, top]: [f64; 4], near: f64, far: f64) -> DMat4 {
+    let (width, height, depth) = (right - left, top - bottom, far - near);
+    DMat4::from_cols(
+        DVec4::new(2.0 / width, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 2.0 / height, 0.0, 0.0),
+        DVec4::new(
+            (right + left) / width,
+            (top + bottom) / height,
+            -(far + near) / depth,
+            -1.0,
+        ),
+        DVec4::new(0.0, 0.0, -2.0 * far * near / depth, 0.0),
+    )
+}
+
 /// Camera space to clip space without perspective: `glm::ortho`, of the box left, right, bottom, top between two planes.
 pub fn orthographic([left, right, bottom, top]: [f64; 4], near: f64, far: f64) -> DMat4 {
     let (width, height, depth) = (right - left, top - bottom, far - near);

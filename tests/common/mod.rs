@@ -42,6 +42,18 @@ impl Bench {
         Self::start(lab, scene, Some(folder), context, size, &[])
     }
 
+    /// With a student's own shaders, and a scene.
+    pub fn with_scene_and_glsl(
+        lab: &str,
+        scene: Scene,
+        folder: &std::path::Path,
+        size: [u32; 2],
+        settings: &[&str],
+    ) -> Self {
+        let context = Headless::open(&Choice::Software, size, false).unwrap();
+        Self::start(lab, scene, Some(folder), context, size, settings)
+    }
+
     fn start(
         lab: &str,
         scene: Scene,

@@ -13,7 +13,8 @@ use super::Aueb7;
 use super::programs::LIGHTING;
 use super::spot_light::DIFFUSE;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER, Placed};
+use crate::shadow_tests::Placed;
+use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER};
 use crate::{Error, Result};
 
 const BINDING: Binding = Binding {

@@ -315,6 +315,7 @@ impl Lab for Aueb7 {
             texture: self.shadow_fbo.fbo_shadow_texture,
             scale: MapScale {
                 size: self.shadow_fbo.shadow_dimensions,
+                share: [1.0; 2],
                 projection: Projection::Perspective,
                 near,
                 far,

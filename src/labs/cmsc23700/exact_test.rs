@@ -13,7 +13,8 @@ use super::second_pass::MATRICES;
 use super::{Cmsc23700, DIRECTIONAL, SPOT};
 use crate::gl::{self, Program, Shaders};
 use crate::scene::{Object, Scene};
-use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, Placed};
+use crate::shadow_tests::Placed;
+use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest};
 use crate::{Error, Result};
 
 /// Behind the two shadow maps' texture units come two for each light.

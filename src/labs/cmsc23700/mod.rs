@@ -389,6 +389,7 @@ impl Lab for Cmsc23700 {
             texture: map.depth_texture,
             scale: MapScale {
                 size: map.size,
+                share: [1.0; 2],
                 projection: [Projection::Orthographic, Projection::Perspective][number],
                 near,
                 far,

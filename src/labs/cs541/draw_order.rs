@@ -11,7 +11,7 @@ use glow::HasContext;
 
 use super::Cs541;
 use crate::scene::{Camera, Mesh};
-use crate::shadow_tests::exact::Topology;
+use crate::shadow_tests::Topology;
 
 /// What the order asks of a mesh, wherever it is placed.
 pub struct Outline {

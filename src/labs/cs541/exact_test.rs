@@ -2,10 +2,9 @@
 
 use super::Cs541;
 use super::programs::{exact_lighting_program, exact_visibility_program};
+use crate::Result;
 use crate::gl::{Program, Shaders};
-use crate::scene::{Light, Object};
-use crate::shadow_tests::exact::{Binding, Builder, ExactTest, LIGHT_BUFFER, Placed};
-use crate::{Error, Result};
+use crate::shadow_tests::exact::{Binding, Builder, ExactTest, LIGHT_BUFFER};
 
 const BINDING: Binding = Binding {
     pass: "the light buffer",
@@ -47,27 +46,13 @@ impl Exact {
 }
 
 impl Cs541 {
-    /// Whether the exact test is made: with shadows=off none is.
-    pub(super) fn is_exact(&self) -> bool {
-        self.settings.choice("shadow_test") == "exact" && self.settings.switch("shadows")
-    }
-
     /// Brings the light buffer up to date with the light and the scene.
     pub(super) fn prepare_exact_test(&mut self, gl: &glow::Context) -> Result<()> {
         if self.exact.is_none() {
             self.exact = Some(Exact::new(gl, &self.shaders)?);
         }
-        let placed = |object: &Object| Placed {
-            mesh: object.mesh.clone(),
-            model: object.model(self.time),
-            casts: object.casts,
-        };
-        let scene = self.scene.objects.iter().map(placed).collect();
-        let light = Light {
-            kind: self.light_kind(),
-            ..self.light().clone()
-        };
         let every_frame = self.settings.choice("redraw") == "every_frame";
+        let (light, scene) = (self.set_light(), self.placed());
         let exact = self.exact.as_mut().expect("made above");
         let Exact { builder, test, .. } = exact;
         test.prepare(gl, builder, &light, scene, every_frame)
@@ -82,38 +67,10 @@ impl Cs541 {
         }
     }
 
-    /// What every program with the exact test needs: both cameras, the light buffer, the beam.
+    /// What every program with the exact test needs: the eye's camera, the light buffer, the beam.
     pub(super) fn use_light_buffer(&self, gl: &glow::Context, exact: &Exact, program: &Program) {
         exact.test.bind(gl, program);
         program.set(gl, "beam", self.beam());
         self.set_camera(gl, program);
-    }
-
-    /// Where an object is as the light sees it, and which triangles are its own.
-    pub(super) fn set_exact_test(
-        &self,
-        gl: &glow::Context,
-        exact: &Exact,
-        program: &Program,
-        index: usize,
-    ) {
-        let model = self.scene.objects[index].model(self.time);
-        program.set(gl, "light_model_matrix", exact.test.from_object(model));
-        program.set(gl, "first_triangle", exact.test.first_triangle(index));
-    }
-
-    /// An error where the state has no shadow map.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout",
-            ));
-        }
-        Ok(())
     }
 }

@@ -7,6 +7,7 @@
 //! | First pass: drawing the shadow map | `first_pass.rs` |
 //! | Second pass: using the shadow map | `second_pass.rs`; `glsl/cs541/lighting.vert`, `lighting.frag` |
 //! | Shadow acne | the settings `remedy`, `epsilon`, `second_plane` |
+//! | no part of it: the map at its best | `offset_test.rs`; `glsl/cs541/lighting_offset.frag` |
 //! | no part of it: a test without a map | `exact_test.rs`; `glsl/cs541/lighting_exact.frag` |
 //!
 //! Chosen, because the handout leaves it to each student: the scene, the light's near and far, the step of each key,
@@ -19,11 +20,13 @@ mod draw_order;
 mod exact_test;
 mod explain;
 mod first_pass;
+mod offset_test;
 mod programs;
 mod scene;
 mod second_pass;
 mod settings;
 mod shadow_buffer;
+mod shadow_test;
 mod stages;
 
 use std::path::Path;
@@ -41,10 +44,12 @@ use crate::scene::{Camera, Light, Object, Scene, rotate, shapes};
 use draw_order::Outline;
 use exact_test::Exact;
 use first_pass::MapInputs;
+use offset_test::Offset;
 use programs::{Programs, SHADERS, unshadowed_program};
 use second_pass::Sky;
 use settings::{DRAG_STEP, EYE_STEP, FOV_STEP, KEYS, LIGHT_STEP, SETTINGS};
 use shadow_buffer::{ShadowBuffer, ShadowBufferKind};
+use shadow_test::ShadowTest;
 
 pub static HANDOUT: Handout = Handout {
     name: "cs541",
@@ -88,6 +93,7 @@ struct Cs541 {
     sky: Sky,
 
     /// What only the setting shadow_test asks for.
+    offset: Option<Offset>,
     exact: Option<Exact>,
     /// What only shadows=off asks for.
     unshadowed: Option<Program>,
@@ -160,6 +166,7 @@ impl Cs541 {
             shadow_buffer,
             drawn: None,
             sky,
+            offset: None,
             exact: None,
             unshadowed: None,
             visibility: None,
@@ -169,18 +176,17 @@ impl Cs541 {
 
     /// The first pass, if the map that it drew last does not serve on.
     fn prepare_shadow_map(&mut self, gl: &glow::Context) -> Result<()> {
-        let kind = ShadowBufferKind::new(self.largest_map, &self.settings);
-        if kind != self.shadow_buffer.kind {
-            self.shadow_buffer.delete(gl);
-            self.shadow_buffer = ShadowBuffer::new(gl, kind)?;
-            self.drawn = None;
-        }
+        self.renew_shadow_buffer(gl)?;
         if self.settings.switch("shadows") {
             let inputs = self.map_inputs();
             let redraw = self.settings.choice("redraw") == "every_frame";
             if redraw || self.drawn.as_ref() != Some(&inputs) {
                 self.draw_shadow_map(gl, &inputs);
                 self.drawn = Some(inputs);
+                // The offset test's map is no more.
+                if let Some(offset) = &mut self.offset {
+                    offset.test.forget();
+                }
             }
         }
         Ok(())
@@ -193,6 +199,18 @@ impl Cs541 {
             self.unshadowed = Some(unshadowed_program(gl, &self.shaders)?);
         }
         Ok(())
+    }
+
+    /// Another texture, if the settings ask for another kind; says whether they do.
+    fn renew_shadow_buffer(&mut self, gl: &glow::Context) -> Result<bool> {
+        let kind = ShadowBufferKind::new(self.largest_map, &self.settings);
+        let renewed = kind != self.shadow_buffer.kind;
+        if renewed {
+            self.shadow_buffer.delete(gl);
+            self.shadow_buffer = ShadowBuffer::new(gl, kind)?;
+            self.drawn = None;
+        }
+        Ok(renewed)
     }
 }
 
@@ -285,12 +303,7 @@ impl Lab for Cs541 {
 
     #[doc(alias = "draw")]
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
-        if self.is_exact() {
-            self.prepare_exact_test(gl)?;
-        } else {
-            self.release_exact_test(gl);
-            self.prepare_shadow_map(gl)?;
-        }
+        self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => {
                 self.prepare_unshadowed(gl)?;
@@ -303,10 +316,10 @@ impl Lab for Cs541 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::new(gl, &self.shaders)?;
-        if let Some(exact) = &mut self.exact {
-            exact
-                .reload(gl, &self.shaders)
-                .inspect_err(|_| programs.delete(gl))?;
+        let offset = self.offset.as_mut().map(|o| o.reload(gl, &self.shaders));
+        let exact = self.exact.as_mut().map(|e| e.reload(gl, &self.shaders));
+        for reloaded in [offset, exact].into_iter().flatten() {
+            reloaded.inspect_err(|_| programs.delete(gl))?;
         }
         std::mem::replace(&mut self.programs, programs).delete(gl);
         let made_on_demand = [
@@ -319,20 +332,28 @@ impl Lab for Cs541 {
         }
         // The map was drawn by the old shaders.
         self.drawn = None;
+        if let Some(offset) = &mut self.offset {
+            offset.test.forget();
+        }
         Ok(())
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
         self.check_map()?;
         let Light { near, far, .. } = *self.light();
+        let (share, [near, far], bias) = match self.shadow_test() {
+            ShadowTest::Offset(offset) => (offset.test.share(), offset.test.planes(), 0.0),
+            _ => ([1.0; 2], [near, far], self.epsilon()),
+        };
         Ok(ShadowTexture {
             texture: self.shadow_buffer.depth_texture_buffer,
             scale: MapScale {
                 size: self.shadow_buffer.kind.size,
+                share,
                 projection: Projection::Perspective,
                 near,
                 far,
-                bias: self.epsilon(),
+                bias,
             },
         })
     }

@@ -1,9 +1,10 @@
 //! "Vertex and fragment shaders": which files make which program, and what is set in it.
 
+use super::offset_test::TAPS;
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::{self, exact};
+use crate::shadow_tests::{self, exact, offset};
 
 /// The shaders, which are the lesson's other half.
 pub const SHADERS: &[(&str, &str)] = &[
@@ -36,8 +37,8 @@ pub const SHADERS: &[(&str, &str)] = &[
         include_str!("../../../glsl/cs541/explain.frag"),
     ),
     (
-        "lighting_exact.vert",
-        include_str!("../../../glsl/cs541/lighting_exact.vert"),
+        "lighting_lcs.vert",
+        include_str!("../../../glsl/cs541/lighting_lcs.vert"),
     ),
     (
         "lighting_exact.frag",
@@ -47,7 +48,17 @@ pub const SHADERS: &[(&str, &str)] = &[
         "visibility_exact.frag",
         include_str!("../../../glsl/cs541/visibility_exact.frag"),
     ),
+    (
+        "lighting_offset.frag",
+        include_str!("../../../glsl/cs541/lighting_offset.frag"),
+    ),
+    (
+        "visibility_offset.frag",
+        include_str!("../../../glsl/cs541/visibility_offset.frag"),
+    ),
     shadow_tests::SHADERS[0],
+    shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
     ("unlit.vert", include_str!("../../../glsl/cs541/unlit.vert")),
     ("unlit.frag", include_str!("../../../glsl/cs541/unlit.frag")),
 ];
@@ -67,8 +78,8 @@ pub const SHADOW_TEST: [&str; 6] = [
 /// Of those, what the beam alone asks for.
 const BEAM: [&str; 3] = ["shadow_persp_matrix", "shadow_view_matrix", "beam"];
 
-/// Uniforms of the exact shadow test.
-const EXACT_TEST: [&str; 3] = ["light_model_matrix", "first_triangle", "beam"];
+/// Uniforms of the two tests in the light's coordinate system.
+const LCS_TEST: [&str; 2] = ["light_model_matrix", "beam"];
 /// Uniforms of the lighting.
 const LIGHTING: [&str; 9] = [
     "normal_matrix",
@@ -177,8 +188,33 @@ fn exact_program(
     others: &[&'static str],
 ) -> Result<Program> {
     let fragments = [fragment, exact::SHADER];
-    let uniforms = [&MATRICES[..], &EXACT_TEST, &exact::LIGHT_BUFFER, others].concat();
-    Program::linked(gl, shaders, "lighting_exact.vert", &fragments, &uniforms)
+    let own = ["first_triangle"];
+    let uniforms = [&MATRICES[..], &LCS_TEST, &own, &exact::LIGHT_BUFFER, others];
+    let uniforms = uniforms.concat();
+    Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
+}
+
+/// The second pass with the offset shadow test.
+pub fn offset_lighting_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the lighting program with the offset test");
+    offset_program(gl, shaders, "lighting_offset.frag", &LIGHTING)
+}
+
+/// The offset shadow test alone.
+pub fn offset_visibility_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {
+    let _pass = gl::pass(gl, "set-up: the visibility program with the offset test");
+    offset_program(gl, shaders, "visibility_offset.frag", &[])
+}
+
+fn offset_program(
+    gl: &glow::Context,
+    shaders: &Shaders,
+    fragment: &str,
+    others: &[&'static str],
+) -> Result<Program> {
+    let fragments = [fragment, offset::SHADER, TAPS.shader()];
+    let uniforms = [&MATRICES[..], &LCS_TEST, &offset::FITTED_MAP, others].concat();
+    Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
 }
 
 fn unlit_program(gl: &glow::Context, shaders: &Shaders) -> Result<Program> {

@@ -9,6 +9,7 @@ use glow::HasContext;
 use super::Cs541;
 use super::draw_order::{Drawn, set_culling};
 use super::programs::visibility_program;
+use super::shadow_test::ShadowTest;
 use crate::Result;
 use crate::gl::{self, Program};
 use crate::scene::{Beam, Camera, Light, LightKind, Material, Object, camera, rotate};
@@ -71,34 +72,33 @@ impl Cs541 {
     }
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
         let shadows = self.settings.switch("shadows");
         let unshadowed = self.unshadowed.as_ref().filter(|_| !shadows);
-        let _pass = gl::pass(
-            gl,
-            match (exact, unshadowed) {
-                (Some(_), _) => "second pass: using the light buffer",
-                (None, Some(_)) => "second pass: local illumination alone",
-                (None, None) => "second pass: using the shadow map",
-            },
-        );
+        let (heading, program) = match (self.shadow_test(), unshadowed) {
+            (_, Some(unshadowed)) => ("second pass: local illumination alone", unshadowed),
+            (ShadowTest::Handout, None) => {
+                ("second pass: using the shadow map", &self.programs.lighting)
+            }
+            (ShadowTest::Offset(offset), None) => {
+                ("second pass: using the fitted shadow map", &offset.lighting)
+            }
+            (ShadowTest::Exact(exact), None) => {
+                ("second pass: using the light buffer", &exact.lighting)
+            }
+        };
+        let _pass = gl::pass(gl, heading);
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         self.select_window(gl, [red, green, blue, 1.0]);
         let mut bound = self.draw_sky(gl);
 
-        let program = match exact {
-            Some(exact) => &exact.lighting,
-            None => unshadowed.unwrap_or(&self.programs.lighting),
-        };
         let eye = self.camera().eye;
         let Light {
             position, color, ..
         } = *self.light();
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None if unshadowed.is_some() => self.use_light_camera(gl, program),
-            None => self.use_shadow_map(gl, program),
+        match unshadowed {
+            Some(_) => self.use_light_camera(gl, program),
+            None => self.use_shadow_test(gl, program),
         }
         program.set(gl, "usampler", 0);
         program.set(gl, "eye_position", DVec3::ZERO);
@@ -123,8 +123,8 @@ impl Cs541 {
                 unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
             }
             program.set(gl, "model_matrix", model);
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index);
+            if unshadowed.is_none() {
+                self.set_shadow_test(gl, program, index);
             }
             program.set(
                 gl,
@@ -141,25 +141,22 @@ impl Cs541 {
     }
 
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
-        if self.visibility.is_none() && !self.is_exact() {
+        if self.visibility.is_none() && matches!(self.shadow_test(), ShadowTest::Handout) {
             self.visibility = Some(visibility_program(gl, &self.shaders)?);
         }
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let visibility = exact.map(|exact| &exact.visibility);
-        let program = visibility.or(self.visibility.as_ref()).expect("made above");
+        let program = match self.shadow_test() {
+            ShadowTest::Handout => self.visibility.as_ref().expect("made above"),
+            ShadowTest::Offset(offset) => &offset.visibility,
+            ShadowTest::Exact(exact) => &exact.visibility,
+        };
         let _pass = gl::pass(gl, "second pass: the shadow test alone");
         self.select_window(gl, [1.0; 4]);
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None => self.use_shadow_map(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         let mut culling = false;
         for drawn in self.draw_order() {
             program.set(gl, "model_matrix", drawn.model);
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, drawn.index);
-            }
+            self.set_shadow_test(gl, program, drawn.index);
             set_culling(gl, &mut culling, drawn.hides_back_faces);
             self.meshes[drawn.index].draw(gl);
         }

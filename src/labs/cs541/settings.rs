@@ -97,8 +97,8 @@ pub const SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "shadow_test",
-        kind: Kind::Choice(&["handout", "exact"]),
-        help: "the handout's shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
+        kind: Kind::Choice(&["handout", "offset", "exact"]),
+        help: "the handout's shadow map; one fitted to the casters, drawn with glPolygonOffset and without remedy, epsilon, second_plane; or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
     },
     Setting {
         name: "shadows",

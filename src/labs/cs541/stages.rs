@@ -76,6 +76,7 @@ pub const COMPARISONS: &[Comparison] = &[
             &["epsilon=0.0001,0.01"],
             &["filter=nearest"],
             &["depth_format=16,32F"],
+            &["shadow_test=offset", "map_size=256..2048"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],
@@ -85,6 +86,7 @@ pub const COMPARISONS: &[Comparison] = &[
         set: &["light=point"],
         sweeps: &[
             &["remedy=epsilon,culling", "map_size=512..2048"],
+            &["shadow_test=offset", "map_size=512..2048"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],

@@ -8,6 +8,7 @@ use glow::HasContext;
 
 use super::Csci3260;
 use super::models::Mesh;
+use super::shadow_test::ShadowTest;
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program, Shaders};
@@ -106,25 +107,17 @@ impl Csci3260 {
 
     /// The second half of `paintGL`: "using the basic shader".
     pub(super) fn use_shadow_map(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let _pass = gl::pass(
-            gl,
-            match exact {
-                Some(_) => "using the light buffer",
-                None => "using the shadow map",
-            },
-        );
-        let program = exact.map_or(&self.programs.basic, |exact| &exact.basic);
+        let (heading, program) = match self.shadow_test() {
+            ShadowTest::Slides => ("using the shadow map", &self.programs.basic),
+            ShadowTest::Offset(offset) => ("using the fitted shadow map", &offset.basic),
+            ShadowTest::Exact(exact) => ("using the light buffer", &exact.basic),
+        };
+        let _pass = gl::pass(gl, heading);
         let [red, green, blue] = self.scene().clear.as_vec3().to_array();
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [red, green, blue, 1.0]);
-        match exact {
-            Some(exact) => {
-                exact.test.bind(gl, program);
-                program.set(gl, "lightInvDir", self.light_inv_dir());
-            }
-            None => self.set_shadow_test(gl, program),
-        }
+        self.use_shadow_test(gl, program);
+        program.set(gl, "lightInvDir", self.light_inv_dir());
         program.set(gl, "objTexture", 0);
         let specular_visibility = self.settings.number("specular_visibility");
         program.set(gl, "specularVisibility", specular_visibility);
@@ -139,13 +132,8 @@ impl Csci3260 {
             if bound.replace(texture) != Some(texture) {
                 unsafe { gl.bind_texture(glow::TEXTURE_2D, Some(texture)) };
             }
-            match exact {
-                Some(exact) => {
-                    self.set_exact_test(gl, exact, program, mesh.object);
-                    program.set(gl, "normalMatrix", self.normal_matrix(object));
-                }
-                None => self.set_transformations(gl, program, object),
-            }
+            self.send_object(gl, program, mesh.object);
+            program.set(gl, "normalMatrix", self.normal_matrix(object));
             program.set(gl, "M", self.model_from_eye(object));
             program.set(gl, "materialColor", object.material.diffuse);
             program.set(gl, "MaterialSpecularColor", object.material.specular);
@@ -155,21 +143,21 @@ impl Csci3260 {
 
     /// The shadow test alone.
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context) -> Result<()> {
-        if let Some(exact) = self.exact.as_ref().filter(|_| self.is_exact()) {
-            self.draw_exact_visibility(gl, exact);
-            return Ok(());
-        }
-        if self.visibility.is_none() {
+        if self.visibility.is_none() && matches!(self.shadow_test(), ShadowTest::Slides) {
             let _pass = gl::pass(gl, "set-up: the visibility program");
             self.visibility = Some(with_shadow_test(gl, &self.shaders, "visibility.frag", &[])?);
         }
-        let program = self.visibility.as_ref().expect("made above");
-        let _pass = gl::pass(gl, "using the shadow map: the test alone");
+        let program = match self.shadow_test() {
+            ShadowTest::Slides => self.visibility.as_ref().expect("made above"),
+            ShadowTest::Offset(offset) => &offset.visibility,
+            ShadowTest::Exact(exact) => &exact.visibility,
+        };
+        let _pass = gl::pass(gl, "the shadow test alone");
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [1.0; 4]);
-        self.set_shadow_test(gl, program);
+        self.use_shadow_test(gl, program);
         self.draw_scene(gl, |mesh, _| {
-            self.set_transformations(gl, program, &self.scene().objects[mesh.object]);
+            self.send_object(gl, program, mesh.object);
             true
         });
         Ok(())
@@ -230,14 +218,21 @@ impl Csci3260 {
         gl: &glow::Context,
         mut send: impl FnMut(&Mesh, glow::Texture) -> bool,
     ) {
+        let mut bound = self.bound.take();
         for model in self.models[self.place()].iter().flatten() {
             let chosen = self.chosen_texture(&model.name);
             for mesh in &model.meshes {
                 let texture = mesh.textures.get(chosen).unwrap_or(&mesh.textures[0]);
                 if send(mesh, *texture) {
-                    mesh.buffers.draw(gl);
+                    // The map's last mesh may be the picture's first.
+                    if bound.replace(mesh.object) == Some(mesh.object) {
+                        mesh.buffers.draw_again(gl);
+                    } else {
+                        mesh.buffers.draw(gl);
+                    }
                 }
             }
         }
+        self.bound.set(bound);
     }
 }

@@ -1,16 +1,10 @@
 //! `shadow_test=exact`: no shadow map is rendered; the basic shader asks the light buffer. No part of the slides.
-//!
-//! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
-#![allow(unsafe_code)]
-
-use glow::HasContext;
 
 use super::Csci3260;
 use super::basic_shader::{SHADING, VERTEX_SHADER};
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::scene::Object;
-use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER, Placed};
-use crate::{Error, Result};
+use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER};
 
 /// Uniforms of the exact shadow test, and of the vertex shader as far as the test needs it.
 const TEST: [&str; 3] = ["MVP", "DepthBiasMVP", "firstTriangle"];
@@ -65,24 +59,13 @@ fn install(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
 }
 
 impl Csci3260 {
-    /// Whether the exact test is made: with shadows=off none is.
-    pub(super) fn is_exact(&self) -> bool {
-        self.settings.choice("shadow_test") == "exact" && self.settings.switch("shadows")
-    }
-
     /// Brings the light buffer up to date with the light and the scene.
     pub(super) fn prepare_exact_test(&mut self, gl: &glow::Context) -> Result<()> {
         if self.exact.is_none() {
             self.exact = Some(Exact::new(gl, &self.shaders)?);
         }
-        let placed = |object: &Object| Placed {
-            mesh: object.mesh.clone(),
-            model: self.model_matrix(object),
-            casts: object.casts,
-        };
-        let scene = self.scene().objects.iter().map(placed).collect();
-        let light = self.light().clone();
         let every_frame = self.settings.choice("redraw") == "every_frame";
+        let (light, scene) = (self.light().clone(), self.placed());
         let exact = self.exact.as_mut().expect("made above");
         let Exact { builder, test, .. } = exact;
         test.prepare(gl, builder, &light, scene, every_frame)
@@ -95,48 +78,5 @@ impl Csci3260 {
         if let Some(exact) = exact {
             exact.test.release(gl);
         }
-    }
-
-    /// The exact test alone.
-    pub(super) fn draw_exact_visibility(&self, gl: &glow::Context, exact: &Exact) {
-        let _pass = gl::pass(gl, "using the light buffer: the test alone");
-        let program = &exact.visibility;
-        unsafe { gl.use_program(Some(program.handle)) };
-        self.select_window(gl, [1.0; 4]);
-        exact.test.bind(gl, program);
-        self.draw_scene(gl, |mesh, _| {
-            self.set_exact_test(gl, exact, program, mesh.object);
-            true
-        });
-    }
-
-    /// Where a model is as the camera and the light see it, and which triangles are its own.
-    pub(super) fn set_exact_test(
-        &self,
-        gl: &glow::Context,
-        exact: &Exact,
-        program: &Program,
-        index: usize,
-    ) {
-        let object = &self.scene().objects[index];
-        let model = self.model_matrix(object);
-        program.set(gl, "MVP", self.mvp(object));
-        program.set(gl, "DepthBiasMVP", exact.test.from_object(model));
-        program.set(gl, "firstTriangle", exact.test.first_triangle(index));
-    }
-
-    /// An error where the state has no shadow map.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout",
-            ));
-        }
-        Ok(())
     }
 }

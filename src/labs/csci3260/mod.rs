@@ -6,6 +6,7 @@
 //! | Rendering the shadow map | `shadow_map.rs`; `glsl/csci3260/ShadowVertexShader.glsl`, `ShadowFragmentShader.glsl` |
 //! | Using the shadow map | `basic_shader.rs`; `glsl/csci3260/VertexShaderCode.glsl`, `FragmentShaderCode.glsl` |
 //! | Shadow acne, Peter Panning, PCF | the settings `stage`, `bias`, `scene` |
+//! | no part of them: the map at its best | `offset_test.rs`; `glsl/csci3260/FragmentShaderCode_offset.glsl` |
 //! | no part of them: a test without a map | `exact_test.rs`; `glsl/csci3260/FragmentShaderCode_exact.glsl` |
 //!
 //! Chosen, because the slides leave it open: the clear color, the light's colors, the steps of the keys, the room, and
@@ -18,11 +19,14 @@ mod basic_shader;
 mod exact_test;
 mod explain;
 mod models;
+mod offset_test;
 mod scene;
 mod settings;
 mod shadow_map;
+mod shadow_test;
 mod stages;
 
+use std::cell::Cell;
 use std::path::Path;
 
 use glam::{DMat4, DVec3};
@@ -38,8 +42,10 @@ use crate::scene::{Camera, Light, Object, Scene, rotate};
 use crate::shadow_tests;
 use exact_test::Exact;
 use models::Model;
+use offset_test::Offset;
 use settings::{DOLPHIN_STEP, DOLPHIN_TURN, DRAG_STEP, INTENSITY_STEP, KEYS, SETTINGS};
 use shadow_map::{MapInputs, RenderTarget};
+use shadow_test::ShadowTest;
 
 pub static HANDOUT: Handout = Handout {
     name: "csci3260",
@@ -90,7 +96,18 @@ const SHADERS: &[(&str, &str)] = &[
         "visibility_exact.frag",
         include_str!("../../../glsl/csci3260/visibility_exact.frag"),
     ),
+    (
+        "FragmentShaderCode_offset.glsl",
+        include_str!("../../../glsl/csci3260/FragmentShaderCode_offset.glsl"),
+    ),
+    (
+        "visibility_offset.frag",
+        include_str!("../../../glsl/csci3260/visibility_offset.frag"),
+    ),
     shadow_tests::SHADERS[0],
+    shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
+    shadow_tests::SHADERS[3],
 ];
 
 /// The numbers of the two scenes, the course's (or a student's) and the room.
@@ -111,6 +128,8 @@ struct Csci3260 {
 
     /// What both passes draw, of each scene; None until it is first drawn.
     models: [Option<Vec<Model>>; 2],
+    /// The object that this frame has drawn last.
+    bound: Cell<Option<usize>>,
 
     shaders: Shaders,
     programs: Programs,
@@ -121,6 +140,7 @@ struct Csci3260 {
     drawn: Option<MapInputs>,
 
     /// What only the setting shadow_test asks for.
+    offset: Option<Offset>,
     exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
@@ -160,11 +180,13 @@ impl Csci3260 {
             dolphin_texture: 0,
             sea_texture: 0,
             models: [None, None],
+            bound: Cell::new(None),
             shaders,
             programs,
             largest_map,
             target,
             drawn: None,
+            offset: None,
             exact: None,
             visibility: None,
             explainer: None,
@@ -234,12 +256,8 @@ impl Csci3260 {
     #[doc(alias = "paintGL")]
     fn paint_gl(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.send_data_to_opengl(gl)?;
-        if self.is_exact() {
-            self.prepare_exact_test(gl)?;
-        } else {
-            self.release_exact_test(gl);
-            self.prepare_shadow_map(gl)?;
-        }
+        self.bound.set(None);
+        self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => self.use_shadow_map(gl),
             Show::Visibility { .. } => self.draw_visibility(gl)?,
@@ -249,21 +267,32 @@ impl Csci3260 {
 
     /// The shadow map, rendered anew if the last one does not serve on.
     fn prepare_shadow_map(&mut self, gl: &glow::Context) -> Result<()> {
-        let size = map_size(self.largest_map, &self.settings);
-        if size != self.target.size {
-            self.target.delete(gl);
-            self.target = RenderTarget::new(gl, size)?;
-            self.drawn = None;
-        }
+        self.renew_target(gl)?;
         if self.settings.switch("shadows") {
             let inputs = self.map_inputs();
             let redraw = self.settings.choice("redraw") == "every_frame";
             if redraw || self.drawn.as_ref() != Some(&inputs) {
                 self.render_shadow_map(gl, &inputs);
                 self.drawn = Some(inputs);
+                // The offset test's map is no more.
+                if let Some(offset) = &mut self.offset {
+                    offset.test.forget();
+                }
             }
         }
         Ok(())
+    }
+
+    /// Another render target, if the settings ask for another size; says whether they do.
+    fn renew_target(&mut self, gl: &glow::Context) -> Result<bool> {
+        let size = map_size(self.largest_map, &self.settings);
+        let renewed = size != self.target.size;
+        if renewed {
+            self.target.delete(gl);
+            self.target = RenderTarget::new(gl, size)?;
+            self.drawn = None;
+        }
+        Ok(renewed)
     }
 }
 
@@ -357,8 +386,10 @@ impl Lab for Csci3260 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::install(gl, &self.shaders)?;
-        if let Some(exact) = &mut self.exact {
-            exact.reload(gl, &self.shaders).inspect_err(|_| {
+        let offset = self.offset.as_mut().map(|o| o.reload(gl, &self.shaders));
+        let exact = self.exact.as_mut().map(|e| e.reload(gl, &self.shaders));
+        for reloaded in [offset, exact].into_iter().flatten() {
+            reloaded.inspect_err(|_| {
                 programs.basic.delete(gl);
                 programs.shadow_map.delete(gl);
             })?;
@@ -371,20 +402,28 @@ impl Lab for Csci3260 {
         }
         // The map was drawn by the old shaders.
         self.drawn = None;
+        if let Some(offset) = &mut self.offset {
+            offset.test.forget();
+        }
         Ok(())
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
         self.check_map()?;
         let Light { near, far, .. } = *self.light();
+        let (share, [near, far], bias) = match self.shadow_test() {
+            ShadowTest::Offset(offset) => (offset.test.share(), offset.test.planes(), 0.0),
+            _ => ([1.0; 2], [near, far], self.bias()),
+        };
         Ok(ShadowTexture {
             texture: self.target.depth_texture,
             scale: MapScale {
                 size: self.target.size,
+                share,
                 projection: Projection::Orthographic,
                 near,
                 far,
-                bias: self.bias(),
+                bias,
             },
         })
     }

@@ -70,8 +70,8 @@ pub const SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "shadow_test",
-        kind: Kind::Choice(&["handout", "exact"]),
-        help: "the slides' shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
+        kind: Kind::Choice(&["handout", "offset", "exact"]),
+        help: "the slides' shadow map; one fitted to what casts, drawn with glPolygonOffset and without bias, of the stages with thick and pcf; or the ray to the light against every triangle that it can meet: no map, no bias, no resolution",
     },
     Setting {
         name: "shadows",

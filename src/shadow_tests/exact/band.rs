@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 use super::caster::Caster;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
 use super::node::Node;
-use super::polygon::{PADDING, extent, larger, smaller, visit_rows};
-use super::space::Rays;
+use crate::shadow_tests::polygon::{PADDING, extent, larger, smaller, visit_rows};
+use crate::shadow_tests::space::Rays;
 
 /// A cell as the shader reads it. Nearness is 1/depth or, where rays are parallel, z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

@@ -10,29 +10,13 @@ use super::caster::Caster;
 use super::grid::Filling;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
 use super::node::{self, Node};
-use super::space::{LightSpace, Rays};
-use super::topology::{Topology, Use};
 use crate::scene::{Light, Mesh};
+use crate::shadow_tests::placed::{Placed, box_corners};
+use crate::shadow_tests::space::{LightSpace, Rays};
+use crate::shadow_tests::topology::{Topology, Use};
 
 /// How many triangles or points are worth a thread.
 pub const WORTH_A_THREAD: usize = 1024;
-
-/// A mesh in the scene. Its triangles are numbered as they are drawn.
-#[derive(Clone)]
-pub struct Placed {
-    pub mesh: Arc<Mesh>,
-    /// Object space to world space.
-    pub model: DMat4,
-    pub casts: bool,
-}
-
-impl PartialEq for Placed {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.mesh, &other.mesh)
-            && self.model == other.model
-            && self.casts == other.casts
-    }
-}
 
 /// The light buffer as the shader reads it.
 #[derive(Clone)]
@@ -263,17 +247,4 @@ impl Found<'_> {
 fn casts_on_something(rays: Rays, caster: &Caster, receivers: &[DVec3]) -> bool {
     let mut receivers = receivers.iter();
     receivers.any(|point| caster.is_before(rays, *point))
-}
-
-/// The corners of a box in object space, in world space.
-fn box_corners(model: DMat4, [least, most]: [DVec3; 2]) -> Vec<DVec3> {
-    // A mesh without vertices has none.
-    if !least.is_finite() {
-        return Vec::new();
-    }
-    let corner = |i: u32| {
-        let pick = |axis: u32| [least, most][(i >> axis & 1) as usize][axis as usize];
-        model.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-    };
-    (0..8).map(corner).collect()
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::polygon::larger;
-use super::space::Rays;
+use crate::shadow_tests::polygon::larger;
+use crate::shadow_tests::space::Rays;
 
 /// A triangle is seen edge-on by the light, and casts nothing, where its plane passes the light nearer than this, as a
 /// share of its distance: some thousand times what f64 rounds.

@@ -7,12 +7,12 @@
 use glam::{DMat4, DVec3, DVec4};
 use glow::HasContext;
 
-use super::builder::{Builder, LightBuffer, Placed};
+use super::builder::{Builder, LightBuffer};
 use super::layout::Layout;
-use super::space::LightSpace;
 use crate::gl::trace::{ObjectKind, name_object};
 use crate::gl::{self, Program};
 use crate::scene::{Light, LightKind};
+use crate::shadow_tests::{LightSpace, Placed};
 use crate::{Error, Result};
 
 /// What a light buffer is called, and where it is bound.

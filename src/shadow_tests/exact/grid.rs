@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::band::{Band, Cell, Content, Piece};
 use super::builder::WORTH_A_THREAD;
 use super::node::Node;
-use super::polygon::rows;
+use crate::shadow_tests::polygon::rows;
 
 /// Bands for each thread: where casters are many in some rows and few in others, threads take turns.
 const BANDS_FOR_A_THREAD: usize = 4;

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::builder::WORTH_A_THREAD;
-use super::polygon::{PADDING, Polygon};
-use super::space::Rays;
+use crate::shadow_tests::polygon::{PADDING, Polygon};
+use crate::shadow_tests::space::Rays;
 
 /// How many cells there are for each caster: fewer make longer lists, more take longer to fill. Between 4 and 16 the frames
 /// of the labs' scenes differ by less than a tenth.

@@ -5,12 +5,12 @@
 //!
 //! | step | here |
 //! |---|---|
-//! | which vertices are one, which edges two triangles share; once for each mesh | `topology.rs` |
-//! | where the light is, and along which axes it looks | `space.rs` |
+//! | which vertices are one, which edges two triangles share; once for each mesh | `../topology.rs` |
+//! | where the light is, and along which axes it looks | `../space.rs` |
 //! | what a ray is tested against: three planes through the edges, and the triangle's own | `caster.rs` |
 //! | which triangles can cast onto something | `builder.rs` |
 //! | how cells lie over the light's view, and where in it a triangle is seen | `layout.rs` |
-//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `band.rs`, `polygon.rs` |
+//! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `band.rs`, `../polygon.rs` |
 //! | the planes as the shader goes through them | `node.rs` |
 //! | the buffer textures and the uniforms | `gpu.rs` |
 //! | the test | `glsl/shadow_tests/exact.frag` |
@@ -35,17 +35,12 @@ mod gpu;
 mod grid;
 mod layout;
 mod node;
-mod polygon;
-mod space;
-mod topology;
 
 pub use band::Cell;
-pub use builder::{Builder, LightBuffer, Placed};
+pub use builder::{Builder, LightBuffer};
 pub use gpu::{Binding, ExactTest, LIGHT_BUFFER};
 pub use layout::Layout;
 pub use node::{DARK, FACES_LIGHT, Node};
-pub use space::{LightSpace, Rays};
-pub use topology::Topology;
 
 /// The file of [`super::SHADERS`].
 pub const SHADER: &str = "shadow_tests/exact.frag";

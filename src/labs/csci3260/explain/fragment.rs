@@ -103,6 +103,7 @@ impl Csci3260 {
         self.select_window(gl, [0.0; 4]);
         self.set_shadow_test(gl, program);
         program.set(gl, "valueNumber", value);
+        self.bound.set(None);
         self.draw_scene(gl, |mesh, _| {
             let object = &self.scene().objects[mesh.object];
             self.set_transformations(gl, program, object);

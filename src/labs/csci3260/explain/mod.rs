@@ -64,10 +64,11 @@ impl Csci3260 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
-            ));
+        let test = self.settings.choice("shadow_test");
+        if test != "handout" {
+            return Err(Error::usage(format!(
+                "shadow_test={test} is no test of the slides to explain, expected shadow_test=handout"
+            )));
         }
         probe.check(self.size)?;
         match probe {

@@ -21,6 +21,8 @@ pub enum Rays {
 #[derive(Clone, Copy, Debug)]
 pub struct LightSpace {
     pub rays: Rays,
+    /// The length, in world units, of a unit along z.
+    pub unit: f64,
     origin: DVec3,
     axes: DMat3,
 }
@@ -43,6 +45,7 @@ impl LightSpace {
         let radius = distances.fold(f64::MIN_POSITIVE, f64::max);
         Self {
             rays,
+            unit: radius,
             origin,
             axes: DMat3::from_diagonal(widened / radius) * view,
         }

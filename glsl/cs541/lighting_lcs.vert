@@ -1,6 +1,6 @@
 #version 330 core
-// lighting.vert for the exact shadow test: where each point is as the light sees it, in place of the shadow map. A test
-// holds the two files equal but for that.
+// lighting.vert for the offset and the exact shadow test: where each point is as the light sees it, not where it is in the
+// handout's map. A test holds the two files equal but for that.
 
 // DEVIATES: `attribute`, GLSL 330 core says `in`; the handout itself has `out` beside `attribute`.
 in vec4 position;
