@@ -77,13 +77,17 @@ fn keys_held_down_take_no_more_each_time() {
         }
     };
     (0..2).for_each(|_| round(&mut bench));
-    let before = resident();
-    (0..3).for_each(|_| round(&mut bench));
-    let grown = resident().saturating_sub(before);
-    println!("{grown} KiB more");
-    assert!(grown < LEAK / 2, "{grown} KiB");
+    // A driver may take memory once more at any time; what leaks grows every time.
+    let grown = [(); 2].map(|()| {
+        let before = resident();
+        (0..3).for_each(|_| round(&mut bench));
+        resident().saturating_sub(before)
+    });
+    println!("{grown:?} KiB more");
+    assert!(grown[0].min(grown[1]) < LEAK / 2, "{grown:?} KiB");
 
     // The control: what a program keeps is seen here. Each page is written, so that it is there.
+    let before = resident();
     let kept: Vec<u8> = (0..LEAK * 1024).map(|i| i as u8).collect();
     let found = resident().saturating_sub(before);
     assert!(found > LEAK / 2 && kept[7] == 7, "{found} KiB");
