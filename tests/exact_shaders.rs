@@ -130,7 +130,7 @@ const PAIRS: &[Pair] = &[
     },
     Pair {
         handouts: "aueb7/SpotLight.vert",
-        exact: "aueb7/SpotLight_exact.vert",
+        exact: "aueb7/SpotLight_lcs.vert",
         words: &["light_m", "position_lcs"],
         edit: ("uniform_normal_matrix_ecs * ", ""),
     },

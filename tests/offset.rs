@@ -39,7 +39,7 @@ fn interior(figures: &Figures) -> [usize; 2] {
 
 type State = (&'static str, fn() -> Scene, &'static [&'static str]);
 
-const STATES: [State; 8] = [
+const STATES: [State; 12] = [
     ("cs541", || default_scene("cs541"), &[OFFSET]),
     (
         "cs541",
@@ -63,6 +63,23 @@ const STATES: [State; 8] = [
         "csci3260",
         || default_scene("csci3260"),
         &[OFFSET, "scene=room", "stage=pcf"],
+    ),
+    // Even at the exercises' 128 texels; but a filter that is wider than a texel is seen beside the edge there.
+    ("aueb7", || default_scene("aueb7"), &[OFFSET]),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=512"],
+    ),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=512", "filter=pcf_5"],
+    ),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=1024", "filter=pcf_9"],
     ),
 ];
 
@@ -140,6 +157,9 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         "normal_lcs",
         "visibility = ",
         "dot(n, l) > 0)",
+        "if (inside_beam",
+        "shadow_factor = 1.0;",
+        "shadow_factor = 0.0;",
         "}",
     ];
     for exact in [
@@ -147,6 +167,8 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         "cs541/visibility_exact.frag",
         "csci3260/FragmentShaderCode_exact.glsl",
         "csci3260/visibility_exact.frag",
+        "aueb7/SpotLight_exact.frag",
+        "aueb7/visibility_exact.frag",
     ] {
         let others = |text: &str| {
             let mut lines = lines(text);
@@ -166,6 +188,10 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         (
             "csci3260/FragmentShaderCode_offset.glsl",
             "csci3260/visibility_offset.frag",
+        ),
+        (
+            "aueb7/SpotLight_offset.frag",
+            "aueb7/visibility_offset.frag",
         ),
     ] {
         let asks = |path: &str| {
@@ -226,10 +252,46 @@ fn the_map_is_drawn_when_light_or_casters_have_moved() {
     assert!(is_drawn(&|bench| bench.set(&redraw)), "in every frame");
 }
 
+#[test]
+fn the_spotlights_map_is_drawn_when_light_or_casters_have_moved() {
+    let mut bench = Bench::recorded("aueb7", [64, 64], &[OFFSET]);
+    bench.picture();
+    for (what, keys, settings, expected) in [
+        ("the eye", "wadrf", &[][..], false),
+        ("the world", "<Left>", &[], true),
+        ("wireframe", "<F1>", &[], false),
+        (
+            "what only the exercises' test has",
+            "",
+            &["step=4", "constant_depth_bias=0"],
+            false,
+        ),
+        ("what lies outside", "", &["outside=lit"], false),
+        ("a filter reaches farther", "", &["filter=pcf_9"], true),
+        ("another map", "", &["map_size=512"], true),
+        ("the light", "<Wait:0.2>", &["rotate_light=on"], true),
+        ("the scene", "", &["rotate_light=off", "scene=pirate"], true),
+        ("nothing", "", &[], false),
+    ] {
+        bench.set(settings);
+        bench.press(keys);
+        trace::take();
+        bench.picture();
+        let text = trace::to_c(&trace::take());
+        let drawn = text.contains("// first pass: DrawSceneToShadowFBO, fitted");
+        assert_eq!(drawn, expected, "{what}");
+        assert_eq!(text.contains("glPolygonOffset("), drawn, "{what}");
+    }
+}
+
 /// Both tests draw into one texture, by turns.
 #[test]
 fn the_same_state_is_the_same_picture_whatever_came_before() {
-    for lab in ["cs541", "csci3260"] {
+    for (lab, size) in [
+        ("cs541", "map_size=1024"),
+        ("csci3260", "map_size=1024"),
+        ("aueb7", "map_size=128"),
+    ] {
         let straight = Bench::new(lab, SIZE, &[OFFSET]).picture();
         let handouts = Bench::new(lab, SIZE, &[]).picture();
         assert!(differing(&straight, &handouts) > 20, "{lab}");
@@ -237,7 +299,7 @@ fn the_same_state_is_the_same_picture_whatever_came_before() {
         bench.picture();
         bench.set(&[OFFSET]);
         bench.picture();
-        bench.set(&["map_size=1024", "shadow_test=handout"]);
+        bench.set(&[size, "shadow_test=handout"]);
         bench.picture();
         bench.set(&[OFFSET]);
         bench.visibility();
@@ -251,7 +313,7 @@ fn the_same_state_is_the_same_picture_whatever_came_before() {
 #[test]
 fn the_map_can_be_shown_and_the_test_not_be_explained() {
     let folder = work_folder("offset_map");
-    for lab in ["cs541", "csci3260"] {
+    for lab in ["cs541", "csci3260", "aueb7"] {
         let run = |arguments: &[&str]| {
             Command::new(env!("CARGO_BIN_EXE_shadowlab"))
                 .current_dir(&folder)

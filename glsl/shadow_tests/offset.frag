@@ -10,7 +10,7 @@ uniform vec4 fitted_map_rectangle;
 // a gain in nearness, across and up, in depth per texel.
 uniform vec4 fitted_map_depths;
 
-// Which texels are asked: offset_one.frag, offset_four.frag or offset_five.frag.
+// Which texels are asked: offset_one.frag, offset_five.frag or offset_nine.frag.
 float share_of_texels(vec2 within, float depth, vec2 slope);
 
 // `slope` is what the surface gains in depth from texel to texel, across and up.
@@ -33,8 +33,6 @@ float light_share(vec2 place, float nearness, vec2 nearness_slope)
         return 1.0;
     float depth = fitted_map_depths.x - fitted_map_depths.y * nearness;
     vec2 slope = -fitted_map_depths.zw * nearness_slope;
-
-
     return share_of_texels(within, depth, slope);
 }
 

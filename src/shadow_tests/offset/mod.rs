@@ -18,7 +18,6 @@
 //!   may be the steeper one, is in it.
 //!
 //! Neither leaves a constant to be chosen. What is left falls short by no more than a texel: the map's resolution.
-
 //!
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
@@ -54,6 +53,8 @@ pub enum Taps {
     One,
     /// Its own and one on each side, whose mean is taken.
     Five,
+    /// And the four at its corners.
+    Nine,
 }
 
 impl Taps {
@@ -63,6 +64,7 @@ impl Taps {
         let reach = match self {
             Self::One => 0.5 + 0.5,
             Self::Five => 1.5 + 0.5,
+            Self::Nine => 1.5 + 1.5,
         };
         reach + 2.0 * SNAP
     }
@@ -72,6 +74,7 @@ impl Taps {
         match self {
             Self::One => "shadow_tests/offset_one.frag",
             Self::Five => "shadow_tests/offset_five.frag",
+            Self::Nine => "shadow_tests/offset_nine.frag",
         }
     }
 }
