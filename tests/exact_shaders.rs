@@ -110,6 +110,12 @@ const PAIRS: &[Pair] = &[
         edit: ("normalMatrix * ", ""),
     },
     Pair {
+        handouts: "cmsc23700/lighting.vert",
+        exact: "cmsc23700/lighting_offset.vert",
+        words: &["Coord", "TextureMatrix", "ModelMatrix", "instance"],
+        edit: ("normalMatrix * ", ""),
+    },
+    Pair {
         handouts: "aueb7/SpotLight.frag",
         exact: "aueb7/SpotLight_exact.frag",
         words: &[

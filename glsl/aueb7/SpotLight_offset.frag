@@ -18,8 +18,14 @@ uniform vec3 uniform_light_direction_ecs;
 // What lies outside of the beam: 0 dark, 1 lit.
 uniform float uniform_outside;
 
-// The share of the light that arrives, by the fitted map: shadow_tests/offset.frag.
-float light_share_of_source(vec3 position_lcs, vec3 normal_lcs);
+// A map that is fitted to what casts; it and its test are in shadow_tests/offset.frag.
+struct FittedMap {
+    sampler2D depths;
+    vec4 rectangle;
+    vec4 nearness;
+};
+uniform FittedMap fitted_map;
+float light_share_of_source(FittedMap fitted_map, vec3 position_lcs, vec3 normal_lcs);
 
 out vec4 out_color;
 
@@ -45,7 +51,7 @@ void main(void)
     // How much of the light arrives, by the map? What is dark anyway is not asked about.
     float shadow_factor = uniform_outside;
     if (inside_beam && n_dot_l > 0.0)
-        shadow_factor = light_share_of_source(position_lcs, normal_lcs);
+        shadow_factor = light_share_of_source(fitted_map, position_lcs, normal_lcs);
 
     vec3 diffuse = uniform_light_color * diffuse_color * n_dot_l * attenuation * spot_effect;
     out_color = vec4(uniform_ambient_color * diffuse_color + shadow_factor * diffuse, 1.0);

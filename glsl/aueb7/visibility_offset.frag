@@ -10,7 +10,14 @@ uniform sampler2D uniform_sampler_diffuse;
 // What lies outside of the beam: 0 dark, 1 lit.
 uniform float uniform_outside;
 
-float light_share_of_source(vec3 position_lcs, vec3 normal_lcs);
+// A map that is fitted to what casts; it and its test are in shadow_tests/offset.frag.
+struct FittedMap {
+    sampler2D depths;
+    vec4 rectangle;
+    vec4 nearness;
+};
+uniform FittedMap fitted_map;
+float light_share_of_source(FittedMap fitted_map, vec3 position_lcs, vec3 normal_lcs);
 
 out vec4 out_color;
 
@@ -26,7 +33,7 @@ void main(void)
         && abs(position_lcs.x) <= -position_lcs.z && abs(position_lcs.y) <= -position_lcs.z;
     float shadow_factor = uniform_outside;
     if (inside_beam)
-        shadow_factor = light_share_of_source(position_lcs, normal_lcs);
+        shadow_factor = light_share_of_source(fitted_map, position_lcs, normal_lcs);
 
     out_color = vec4(vec3(shadow_factor), 1.0);
 }

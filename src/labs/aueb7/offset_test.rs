@@ -148,7 +148,9 @@ impl Aueb7 {
             gl.bind_texture(glow::TEXTURE_2D, Some(self.shadow_fbo.fbo_shadow_texture));
             gl.active_texture(glow::TEXTURE0 + DIFFUSE as u32);
         }
-        offset.test.send(gl, program, SHADOW_MAP);
+        offset
+            .test
+            .send(gl, program, &offset::FITTED_MAP, SHADOW_MAP);
         program.set(gl, "uniform_sampler_diffuse", DIFFUSE);
         program.set(gl, "uniform_v", self.view());
         program.set(gl, "uniform_p", self.projection());

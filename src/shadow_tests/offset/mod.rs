@@ -37,8 +37,12 @@ use crate::shadow_tests::Placed;
 /// The file of [`super::SHADERS`]; one of [`Taps`] belongs to it.
 pub const SHADER: &str = "shadow_tests/offset.frag";
 
-/// The uniforms of `offset.frag`.
-pub const FITTED_MAP: [&str; 3] = ["fitted_map", "fitted_map_rectangle", "fitted_map_depths"];
+/// The uniforms of a program with one fitted map.
+pub const FITTED_MAP: [&str; 3] = [
+    "fitted_map.depths",
+    "fitted_map.rectangle",
+    "fitted_map.nearness",
+];
 
 /// The second number of `glPolygonOffset`, in what the depth format can tell apart: the stored depth and the point's are
 /// each rounded when they are projected, interpolated and stored.
@@ -153,12 +157,20 @@ impl OffsetTest {
             .expect("a frame prepares the test first")
     }
 
-    /// Tells a program, which must be in use, of the map that is bound to this texture unit.
-    pub fn send(&self, gl: &glow::Context, program: &Program, unit: i32) {
+    /// Tells a program, which must be in use, of the map that is bound to this texture unit. The uniforms are those of a
+    /// `FittedMap`, as [`FITTED_MAP`] has them.
+    pub fn send(
+        &self,
+        gl: &glow::Context,
+        program: &Program,
+        uniforms: &[&'static str; 3],
+        unit: i32,
+    ) {
         let (inputs, fit) = self.fitted();
-        program.set(gl, "fitted_map", unit);
-        program.set(gl, "fitted_map_rectangle", fit.rectangle(inputs.size));
-        program.set(gl, "fitted_map_depths", fit.depths(inputs.size));
+        let [depths, rectangle, nearness] = *uniforms;
+        program.set(gl, depths, unit);
+        program.set(gl, rectangle, fit.rectangle(inputs.size));
+        program.set(gl, nearness, fit.depths(inputs.size));
     }
 
     /// How much of the light's own field of view (or box) the map covers, across and up.
