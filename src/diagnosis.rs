@@ -4,7 +4,7 @@
 use image::RgbImage;
 
 use crate::Result;
-use crate::compare::{Envelope, SAME, forgive, unlikeness};
+use crate::compare::{Envelope, SAME, TOLERANCE, forgive, unlikeness};
 use crate::mistakes::{self, Edits, Made, Mistake};
 
 /// A mistake explains a picture that is nearer to its own by this factor than to the right one.
@@ -61,13 +61,13 @@ impl Suspects {
         let mut unseen = Vec::new();
         for (mistake, made) in mistakes::of_lab(lab) {
             let picture = draw(made.edits)?;
-            if right_range.share_outside(&picture) <= SAME {
+            if right_range.share_outside(&picture, TOLERANCE) <= SAME {
                 unseen.push(mistake);
                 continue;
             }
             let mut alike = groups
                 .iter_mut()
-                .filter(|group| group.range.share_outside(&picture) <= SAME);
+                .filter(|group| group.range.share_outside(&picture, TOLERANCE) <= SAME);
             match alike.next() {
                 Some(group) => group.mistakes.push((mistake, made)),
                 None => groups.push(Group {
@@ -94,15 +94,15 @@ impl Suspects {
     }
 
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
-    pub fn diagnose(&self, mine: &RgbImage, strict: bool) -> Diagnosis {
+    pub fn diagnose(&self, mine: &RgbImage, tolerance: u8, strict: bool) -> Diagnosis {
         let left = |picture: &RgbImage, range: &Envelope| {
             if strict {
-                return range.share_outside(mine);
+                return range.share_outside(mine, tolerance);
             }
             let found = forgive(mine.clone(), picture);
             match &found.darkened_reference {
-                Some(darkened) => Envelope::new(darkened).share_outside(&found.mine),
-                None => range.share_outside(&found.mine),
+                Some(darkened) => Envelope::new(darkened).share_outside(&found.mine, tolerance),
+                None => range.share_outside(&found.mine, tolerance),
             }
         };
         let wrong = left(&self.right, &self.right_range);

@@ -157,7 +157,12 @@ fn what_is_no_mistake_is_forgiven_unless_strict() {
     right
         .write_with_encoder(JpegEncoder::new_with_quality(jpeg, 85))
         .unwrap();
-    assert_eq!(compare(&folder, "mine.jpg cs541").0, 0);
+    let (code, found) = compare(&folder, "mine.jpg cs541");
+    assert!(
+        code == 0 && words(&found["forgiven"]).contains("JPEG"),
+        "{found}"
+    );
+    assert_eq!(compare(&folder, "mine.jpg cs541 --strict").0, 1);
 
     // Alpha is left out, and that is said.
     let clear = RgbaImage::from_fn(200, 200, |x, y| {
@@ -426,7 +431,8 @@ fn every_mistake_can_be_made_and_most_can_be_seen() {
                 &format!("{} --mistake {name}", lab.name),
                 "mine.png",
             );
-            let differs = shadowlab::compare::Envelope::new(&right).share_outside(&mine)
+            let differs = shadowlab::compare::Envelope::new(&right)
+                .share_outside(&mine, shadowlab::compare::TOLERANCE)
                 > shadowlab::compare::SAME;
             let expected = !UNSEEN_AT_FIRST.contains(&(lab.name, name));
             assert_eq!(differs, expected, "{}, {name}", lab.name);

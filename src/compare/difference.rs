@@ -2,8 +2,10 @@
 
 use image::{Rgb, RgbImage};
 
-/// In levels of 255, of the channel that differs most: drivers round, and JPEG rounds more.
+/// In levels of 255, of the channel that differs most: drivers round.
 pub const TOLERANCE: u8 = 8;
+/// The same of a JPEG, which stores colors in blocks: at quality 85 it leaves one pixel in a thousand beyond this.
+pub const TOLERANCE_OF_JPEG: u8 = 24;
 /// The share of pixels that may differ by more than that between pictures that are called the same: along edges,
 /// rasterisers do not agree on which pixel is whose.
 pub const SAME: f64 = 0.002;
@@ -21,7 +23,9 @@ pub enum Matching {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     pub pixels: usize,
-    /// Pixels that differ by more than [`TOLERANCE`].
+    /// In levels of 255.
+    pub tolerance: u8,
+    /// Pixels that differ by more than that.
     pub differing: usize,
     /// The mean of all channels' differences, in levels of 255.
     pub mean: f64,
@@ -32,7 +36,7 @@ pub struct Difference {
 
 impl Difference {
     /// Of two pictures of one size.
-    pub fn new(mine: &RgbImage, reference: &RgbImage, matching: Matching) -> Self {
+    pub fn new(mine: &RgbImage, reference: &RgbImage, matching: Matching, tolerance: u8) -> Self {
         let range = match matching {
             Matching::Exact => Envelope::exact(reference),
             Matching::WithinAPixel => Envelope::new(reference),
@@ -43,12 +47,13 @@ impl Difference {
         for off in range.outside(mine) {
             sum += off.into_iter().map(f64::from).sum::<f64>();
             let worst = off.into_iter().max().expect("a pixel has channels");
-            differing += usize::from(worst > TOLERANCE);
+            differing += usize::from(worst > tolerance);
             largest = largest.max(worst);
         }
         let pixels = mine.as_raw().len() / 3;
         Self {
             pixels,
+            tolerance,
             differing,
             mean: sum / (3 * pixels) as f64,
             largest,
@@ -102,9 +107,9 @@ impl Envelope {
         })
     }
 
-    /// The share of the pixels that differ by more than [`TOLERANCE`].
-    pub fn share_outside(&self, mine: &RgbImage) -> f64 {
-        let differs = |off: &[u8; 3]| off.iter().any(|levels| *levels > TOLERANCE);
+    /// The share of the pixels that differ by more than so many levels.
+    pub fn share_outside(&self, mine: &RgbImage, tolerance: u8) -> f64 {
+        let differs = |off: &[u8; 3]| off.iter().any(|levels| *levels > tolerance);
         let differing = self.outside(mine).filter(differs).count();
         differing as f64 / (mine.as_raw().len() / 3) as f64
     }
@@ -158,7 +163,7 @@ mod tests {
     #[test]
     fn a_picture_is_like_itself() {
         let picture = halves(50, 20);
-        let same = Difference::new(&picture, &picture, Matching::Exact);
+        let same = Difference::new(&picture, &picture, Matching::Exact, TOLERANCE);
         assert_eq!((same.differing, same.largest, same.mean), (0, 0, 0.0));
         assert!(same.ssim > 0.9999 && same.is_same());
         assert!(heat_map(&picture, &picture).pixels().all(|p| p.0 == [0; 3]));
@@ -167,7 +172,7 @@ mod tests {
     #[test]
     fn what_differs_is_counted() {
         // The right half is 20 levels lighter, in 600 of 1,200 pixels.
-        let found = Difference::new(&halves(70, 20), &halves(50, 20), Matching::Exact);
+        let found = Difference::new(&halves(70, 20), &halves(50, 20), Matching::Exact, TOLERANCE);
         assert_eq!(
             (found.pixels, found.differing, found.largest),
             (1200, 600, 20)
@@ -175,18 +180,23 @@ mod tests {
         assert_eq!(found.mean, 10.0);
         assert!(!found.is_same() && found.ssim < 1.0);
         // Within the tolerance nothing differs.
-        let found = Difference::new(&halves(58, 20), &halves(50, 20), Matching::Exact);
+        let found = Difference::new(&halves(58, 20), &halves(50, 20), Matching::Exact, TOLERANCE);
         assert_eq!((found.differing, found.largest), (0, 8));
     }
 
     #[test]
     fn an_edge_may_be_a_pixel_off_where_a_picture_was_resized() {
         let (mine, reference) = (halves(50, 21), halves(50, 20));
-        let exact = Difference::new(&mine, &reference, Matching::Exact);
-        let near = Difference::new(&mine, &reference, Matching::WithinAPixel);
+        let exact = Difference::new(&mine, &reference, Matching::Exact, TOLERANCE);
+        let near = Difference::new(&mine, &reference, Matching::WithinAPixel, TOLERANCE);
         assert_eq!((exact.differing, near.differing), (30, 0));
         // Two pixels are too many.
-        let far = Difference::new(&halves(50, 22), &reference, Matching::WithinAPixel);
+        let far = Difference::new(
+            &halves(50, 22),
+            &reference,
+            Matching::WithinAPixel,
+            TOLERANCE,
+        );
         assert_eq!(far.differing, 30);
     }
 

@@ -8,6 +8,8 @@ use image::{Rgb, RgbImage};
 /// What was found and taken out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Forgiven {
+    /// What JPEG does to colors.
+    Jpeg,
     /// The picture had this size.
     Size([u32; 2]),
     UpsideDown,
@@ -314,6 +316,7 @@ fn correlation(a: &RgbImage, b: &RgbImage) -> f64 {
 impl fmt::Display for Forgiven {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Jpeg => f.write_str("JPEG, which is not exact in its colors"),
             Self::Size([width, height]) => write!(f, "another size, {width}×{height}"),
             Self::UpsideDown => f.write_str("upside down"),
             Self::Curve(Curve::Darkened) => {

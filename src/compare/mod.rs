@@ -11,6 +11,8 @@ mod difference;
 mod forgiven;
 mod shadows;
 
-pub use difference::{Difference, Envelope, Matching, SAME, TOLERANCE, heat_map};
+pub use difference::{
+    Difference, Envelope, Matching, SAME, TOLERANCE, TOLERANCE_OF_JPEG, heat_map,
+};
 pub use forgiven::{Forgiven, Forgiving, forgive, resized, unlikeness};
 pub use shadows::Shadows;

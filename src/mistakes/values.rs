@@ -177,19 +177,21 @@ fn brought_near(m: DMat4) -> DMat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Camera, Fov, camera};
     use glam::DVec3;
 
+    /// OpenGL's perspective matrix with a horizontal field of view in degrees and the far plane at 30, in front of a view.
     fn light(near: f64, fov: f64) -> DMat4 {
-        let light = Camera {
-            eye: DVec3::new(1.0, 5.0, 2.0),
-            look: DVec3::new(0.2, -1.0, -0.3),
-            rup: DVec3::Y,
-            fov: Fov::Horizontal(fov),
-            near,
-            far: Some(30.0),
-        };
-        light.perspective(1.0) * camera::view(light.eye, light.look, light.rup)
+        let far = 30.0;
+        let focal = 1.0 / (fov / 2.0).to_radians().tan();
+        let depth = [(far + near) / (near - far), 2.0 * far * near / (near - far)];
+        let perspective = DMat4::from_cols(
+            DVec4::new(focal, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, focal, 0.0, 0.0),
+            DVec4::new(0.0, 0.0, depth[0], -1.0),
+            DVec4::new(0.0, 0.0, depth[1], 0.0),
+        );
+        let turned = DMat4::from_euler(glam::EulerRot::XYZ, 0.7, -0.4, 0.2);
+        perspective * turned * DMat4::from_translation(DVec3::new(1.0, 5.0, 2.0))
     }
 
     fn is_near(a: DMat4, b: DMat4) {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use image::RgbImage;
 use serde_json::{Value, json};
-use shadowlab::compare::{Difference, Forgiven, SAME, TOLERANCE};
+use shadowlab::compare::{Difference, Forgiven, SAME};
 use shadowlab::diagnosis::{Diagnosis, Explanation};
 use shadowlab::labs::Handout;
 use shadowlab::measure::Figures;
@@ -85,6 +85,7 @@ impl Judged {
             "notes": self.notes,
             "difference": self.difference.map(|difference| json!({
                 "pixels": difference.pixels,
+                "tolerance": difference.tolerance,
                 "differing": difference.differing,
                 "share": difference.share(),
                 "mean": difference.mean,
@@ -104,12 +105,13 @@ impl Judged {
 /// What was found, in a sentence.
 pub fn difference_words(difference: &Difference) -> String {
     format!(
-        "{} of {} pixels ({:.2} %, at most {:.2} % may) differ by more than {TOLERANCE} levels; mean {:.2}, \
+        "{} of {} pixels ({:.2} %, at most {:.2} % may) differ by more than {} levels; mean {:.2}, \
          largest {}; SSIM {:.4}",
         difference.differing,
         difference.pixels,
         100.0 * difference.share(),
         100.0 * SAME,
+        difference.tolerance,
         difference.mean,
         difference.largest,
         difference.ssim

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use image::{DynamicImage, GrayImage, Luma, RgbImage, imageops};
-use shadowlab::compare::{Difference, Forgiven, Matching};
+use shadowlab::compare::{Difference, Forgiven, Matching, TOLERANCE, TOLERANCE_OF_JPEG};
 use shadowlab::compare::{Shadows, forgive, resized};
 use shadowlab::diagnosis::{Diagnosis, Suspects};
 use shadowlab::ground_truth::{Label, Rays};
@@ -117,13 +117,22 @@ impl CompareCommand {
 
     /// A picture with shadows against the lab's.
     fn picture(&self, handout: &'static Handout, path: &Path) -> Result<Judged> {
-        let (mine, mut notes) = self.load(path)?;
+        let Loaded {
+            picture: mine,
+            is_jpeg,
+            mut notes,
+        } = self.load(path)?;
         let mut state = self.state(handout, &mine);
         let mut forgiven = Vec::new();
+        let mut tolerance = TOLERANCE;
+        if is_jpeg && !self.strict {
+            tolerance = TOLERANCE_OF_JPEG;
+            forgiven.push(Forgiven::Jpeg);
+        }
         let (mine, right) = match &self.reference {
             None => (mine, self.draw(&state, Edits::default())?),
             Some(reference) => {
-                let (reference, _) = self.load(reference)?;
+                let reference = self.load(reference)?.picture;
                 let size: [u32; 2] = reference.dimensions().into();
                 let found: [u32; 2] = mine.dimensions().into();
                 state.changes.size = Some(size);
@@ -144,18 +153,25 @@ impl CompareCommand {
         };
         let given = mine.clone();
         let (difference, mine) = if self.strict {
-            (Difference::new(&mine, &right, Matching::Exact), mine)
+            (
+                Difference::new(&mine, &right, Matching::Exact, tolerance),
+                mine,
+            )
         } else {
             let found = forgive(mine, &right);
             let reference = found.darkened_reference.as_ref().unwrap_or(&right);
-            let difference = Difference::new(&found.mine, reference, Matching::WithinAPixel);
+            let difference =
+                Difference::new(&found.mine, reference, Matching::WithinAPixel, tolerance);
             forgiven.extend(&found.forgiven);
             (difference, found.brightened())
         };
         let diagnosis = match difference.is_same() {
             true => Diagnosis::Right,
-            false => Suspects::new(handout.name, |edits| self.draw(&state, edits))?
-                .diagnose(&given, self.strict),
+            false => Suspects::new(handout.name, |edits| self.draw(&state, edits))?.diagnose(
+                &given,
+                tolerance,
+                self.strict,
+            ),
         };
         let lit = self.draw_lit(&state)?;
         let dark = self.draw(&state, mistakes::all_in_shadow(handout.name))?;
@@ -182,8 +198,9 @@ impl CompareCommand {
 
     /// A picture with shadows and one without: the shadows alone.
     fn pair(&self, handout: &'static Handout, on: &Path, off: &Path) -> Result<Judged> {
-        let ((mine, mut notes), (without, more)) = (self.load(on)?, self.load(off)?);
-        notes.extend(more);
+        let (on_loaded, off_loaded) = (self.load(on)?, self.load(off)?);
+        let notes = [on_loaded.notes, off_loaded.notes].concat();
+        let (mine, without) = (on_loaded.picture, off_loaded.picture);
         let ([width, height], found): ([u32; 2], [u32; 2]) =
             (mine.dimensions().into(), without.dimensions().into());
         if found != [width, height] {
@@ -231,10 +248,10 @@ impl CompareCommand {
     }
 
     /// A picture, as far as it is asked for, and what is odd about it.
-    fn load(&self, path: &Path) -> Result<(RgbImage, Vec<String>)> {
+    fn load(&self, path: &Path) -> Result<Loaded> {
         let bytes = reading::read(path, reading::PICTURE_LIMIT)?;
         let picture = texture::decode(path, &bytes, texture::MOST_BYTES)?;
-        if is_cut_off(&bytes) {
+        if is_jpeg(&bytes) && is_cut_off(&bytes) {
             let message = "found a JPEG that is cut off, expected a whole one";
             return Err(Error::input(path, None, message));
         }
@@ -259,7 +276,11 @@ impl CompareCommand {
             }
             picture = imageops::crop_imm(&picture, x, y, width, height).to_image();
         }
-        Ok((picture, notes))
+        Ok(Loaded {
+            picture,
+            is_jpeg: is_jpeg(&bytes),
+            notes,
+        })
     }
 
     /// The lab's state, at the picture's size.
@@ -354,11 +375,22 @@ impl CompareCommand {
     }
 }
 
+/// A picture from a file, as far as it is asked for.
+struct Loaded {
+    picture: RgbImage,
+    is_jpeg: bool,
+    /// What is odd about it.
+    notes: Vec<String>,
+}
+
+fn is_jpeg(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0xff, 0xd8])
+}
+
 /// A JPEG ends with a marker of its own, behind the last of those that begin a scan; decoders fill up what is missing.
 fn is_cut_off(bytes: &[u8]) -> bool {
-    const START: [u8; 2] = [0xff, 0xd8];
     const SCAN: [u8; 2] = [0xff, 0xda];
     const END: [u8; 2] = [0xff, 0xd9];
     let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
-    bytes.starts_with(&START) && last(END) < last(SCAN)
+    last(END) < last(SCAN)
 }

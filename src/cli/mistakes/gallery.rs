@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use shadowlab::compare::{Envelope, SAME};
+use shadowlab::compare::{Envelope, SAME, TOLERANCE};
 use shadowlab::labs::Handout;
 use shadowlab::mistakes::{self, Edits, Made, Mistake};
 use shadowlab::progress::Progress;
@@ -60,7 +60,7 @@ fn draw(
         let state = states::state(lab, &options, command.size(lab));
         let right = state.picture(&command.device, Edits::default())?;
         let wrong = state.picture(&command.device, made.edits)?;
-        if Envelope::new(&right).share_outside(&wrong) > SAME {
+        if Envelope::new(&right).share_outside(&wrong, TOLERANCE) > SAME {
             for (picture, name) in [(right, "right"), (wrong, "wrong")] {
                 let path = folder.join(format!("{}-{name}.png", mistake.name));
                 picture::write_rgb(&path, &picture, &[])?;

@@ -9,7 +9,7 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, Rgb, RgbImage};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rayon::prelude::*;
-use shadowlab::compare::resized;
+use shadowlab::compare::{TOLERANCE, TOLERANCE_OF_JPEG, resized};
 use shadowlab::diagnosis::{Diagnosis, Suspects};
 use shadowlab::labs::Handout;
 use shadowlab::mistakes;
@@ -53,6 +53,13 @@ impl Perturbed {
             Self::Darkened => "gamma 2.2",
             Self::Brightened => "gamma 1/2.2",
             Self::Tinted => "a tint of up to 8 levels",
+        }
+    }
+
+    fn tolerance(self) -> u8 {
+        match self {
+            Self::Jpeg => TOLERANCE_OF_JPEG,
+            _ => TOLERANCE,
         }
     }
 
@@ -198,7 +205,10 @@ fn prove(
     let tint = [(); 3].map(|()| random.i16(-MOST_TINT..=MOST_TINT));
     let right = ALL.into_par_iter().map(|perturbed| {
         let picture = perturbed.of(&drawn.right, tint);
-        (perturbed, of(perturbed).diagnose(&picture, false))
+        (
+            perturbed,
+            of(perturbed).diagnose(&picture, perturbed.tolerance(), false),
+        )
     });
     for (perturbed, diagnosis) in right.collect::<Vec<_>>() {
         let (asked, accused) = proof.right.entry(perturbed).or_default();
@@ -208,7 +218,10 @@ fn prove(
     for (names, picture) in drawn.pictures() {
         let asked = ALL.into_par_iter().map(|perturbed| {
             let picture = perturbed.of(picture, tint);
-            (perturbed, of(perturbed).diagnose(&picture, false))
+            (
+                perturbed,
+                of(perturbed).diagnose(&picture, perturbed.tolerance(), false),
+            )
         });
         let asked: Vec<_> = asked.collect();
         for name in names {
