@@ -249,6 +249,10 @@ fn every_setting_is_read() {
         (&[], "map_size=256"),
         (&[], "constant_depth_bias=0"),
         (&[], "outside=lit"),
+        (&[], "shadow_test=offset"),
+        (&["shadow_test=offset"], "filter=pcf_5"),
+        (&["shadow_test=offset", "filter=pcf_5"], "filter=pcf_9"),
+        (&["shadow_test=offset"], "outside=lit"),
         (&[], "shadow_test=exact"),
         (&["shadow_test=exact"], "outside=lit"),
         (&[], "shadows=off"),
@@ -257,6 +261,10 @@ fn every_setting_is_read() {
     }
     // The control: what has no say in the hard test.
     assert!(!changes(&[], "step=1"));
+    for without_effect in ["constant_depth_bias=0.001", "step=1"] {
+        let offset = ["shadow_test=offset", "filter=pcf_5"];
+        assert!(!changes(&offset, without_effect), "{without_effect}");
+    }
 
     let mut spinning = example();
     spinning.objects[1].spin = Some(Spin {

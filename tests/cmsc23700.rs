@@ -337,7 +337,11 @@ fn visibility_is_the_shadow_test_of_the_lighting() {
         lit.filter(|(x, y, pixel)| unshadowed.get_pixel(*x, *y) != *pixel)
             .count()
     };
-    for test in ["shadow_test=handout", "shadow_test=exact"] {
+    for test in [
+        "shadow_test=handout",
+        "shadow_test=offset",
+        "shadow_test=exact",
+    ] {
         let mut bench = bench(&["balls=60", test]);
         let picture = bench.picture();
         let visibility = [DIRECTIONAL, SPOT].map(|light| bench.visibility_of(light));

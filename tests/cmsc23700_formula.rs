@@ -132,12 +132,14 @@ fn the_picture_has_the_handouts_formula() {
 
 /// The formula asks for S_l, whoever tells it.
 #[test]
-fn the_picture_with_the_exact_test_has_the_formula_too() {
-    for (lights, numbers) in MODES {
-        let settings = [lights, "balls=60", "shadow_test=exact"];
-        let [differing, asked] = differing_with(&HANDOUTS, &settings, numbers, 1);
-        assert!(asked > 700, "{lights}: {asked}");
-        assert_eq!(differing, 0, "{lights}, of {asked}");
+fn the_picture_with_another_test_has_the_formula_too() {
+    for test in ["shadow_test=offset", "shadow_test=exact"] {
+        for (lights, numbers) in MODES {
+            let settings = [lights, "balls=60", test];
+            let [differing, asked] = differing_with(&HANDOUTS, &settings, numbers, 1);
+            assert!(asked > 700, "{test} {lights}: {asked}");
+            assert_eq!(differing, 0, "{test} {lights}, of {asked}");
+        }
     }
 }
 

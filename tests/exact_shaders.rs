@@ -110,6 +110,12 @@ const PAIRS: &[Pair] = &[
         edit: ("normalMatrix * ", ""),
     },
     Pair {
+        handouts: "cmsc23700/lighting.vert",
+        exact: "cmsc23700/lighting_offset.vert",
+        words: &["Coord", "TextureMatrix", "ModelMatrix", "instance"],
+        edit: ("normalMatrix * ", ""),
+    },
+    Pair {
         handouts: "aueb7/SpotLight.frag",
         exact: "aueb7/SpotLight_exact.frag",
         words: &[
@@ -130,7 +136,7 @@ const PAIRS: &[Pair] = &[
     },
     Pair {
         handouts: "aueb7/SpotLight.vert",
-        exact: "aueb7/SpotLight_exact.vert",
+        exact: "aueb7/SpotLight_lcs.vert",
         words: &["light_m", "position_lcs"],
         edit: ("uniform_normal_matrix_ecs * ", ""),
     },

@@ -139,6 +139,36 @@ const CASES: &[Case] = &[
         ],
     },
     Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            // The plane casts on nothing.
+            ("first pass: DrawSceneToShadowFBO, fitted", 2),
+            ("second pass: Render, with the fitted map", 4),
+        ],
+    },
+    Case {
+        lab: "aueb7",
+        settings: &["redraw=every_frame", "shadow_test=offset", "scene=knossos"],
+        passes: &[
+            // Here nothing is a floor under all the rest.
+            ("first pass: DrawSceneToShadowFBO, fitted", 8),
+            ("second pass: Render, with the fitted map", 9),
+        ],
+    },
+    Case {
+        lab: "cmsc23700",
+        settings: &["redraw=every_frame", "shadow_test=offset"],
+        passes: &[
+            ("the balls' places", 0),
+            ("first pass: with fitted cameras", 0),
+            // Bottom and back cast on nothing, and neither does the wall that the light comes over.
+            ("first pass: the directional light's fitted shadow map", 2),
+            ("first pass: the spotlight's fitted shadow map", 1),
+            ("second pass: with the fitted maps", 5),
+        ],
+    },
+    Case {
         lab: "cmsc23700",
         settings: &["redraw=every_frame", "shadow_test=exact"],
         passes: &[

@@ -23,12 +23,17 @@ fn default_scene(lab: &str) -> Scene {
 }
 
 fn figures(bench: &mut Bench) -> Figures {
-    let visibility = bench.visibility();
-    let rays = Rays::new(&bench.lab.now(), 0);
+    figures_of(1, bench)
+}
+
+/// Of a light, counted from 1.
+fn figures_of(light: usize, bench: &mut Bench) -> Figures {
+    let visibility = bench.visibility_of(light);
+    let rays = Rays::new(&bench.lab.now(), light - 1);
     let truth = rays.truth(bench.size);
-    let map = bench.map_scale();
+    let map = bench.lab.shadow_texture(light).unwrap().scale;
     Measure::new(&rays, &truth)
-        .measure(&visibility, map.as_ref())
+        .measure(&visibility, Some(&map))
         .0
 }
 
@@ -39,7 +44,7 @@ fn interior(figures: &Figures) -> [usize; 2] {
 
 type State = (&'static str, fn() -> Scene, &'static [&'static str]);
 
-const STATES: [State; 8] = [
+const STATES: [State; 12] = [
     ("cs541", || default_scene("cs541"), &[OFFSET]),
     (
         "cs541",
@@ -64,6 +69,23 @@ const STATES: [State; 8] = [
         || default_scene("csci3260"),
         &[OFFSET, "scene=room", "stage=pcf"],
     ),
+    // Even at the exercises' 128 texels; but a filter that is wider than a texel is seen beside the edge there.
+    ("aueb7", || default_scene("aueb7"), &[OFFSET]),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=512"],
+    ),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=512", "filter=pcf_5"],
+    ),
+    (
+        "aueb7",
+        || default_scene("aueb7"),
+        &[OFFSET, "map_size=1024", "filter=pcf_9"],
+    ),
 ];
 
 #[test]
@@ -73,6 +95,30 @@ fn nothing_is_wrong_off_the_shadows_edges() {
         let found = figures(&mut bench);
         assert_eq!(interior(&found), [0, 0], "{lab} {settings:?}: {found}");
         assert!(found.shadowed > 500, "{lab} {settings:?}: {found}");
+    }
+}
+
+/// Each of two lights has a fitted map of its own; the balls are one mesh, drawn once, and each casts.
+#[test]
+fn nothing_is_wrong_under_either_light() {
+    for balls in ["balls=0", "balls=20", "balls=100"] {
+        let mut bench = Bench::new("cmsc23700", SIZE, &[balls]);
+        for light in [1, 2] {
+            for (time, size) in [(0.0, "map_size=1024"), (1.3, "map_size=512")] {
+                bench.lab.advance(time);
+                bench.set(&[size, OFFSET]);
+                let found = figures_of(light, &mut bench);
+                let of = format!("{balls} {size}, light {light}: {found}");
+                assert_eq!(interior(&found), [0, 0], "{of}");
+                assert!(found.shadowed > 100 || balls == "balls=0", "{of}");
+                // The control: the handout's map, which needs its bias.
+                bench.set(&["directional_bias=0", "spot_bias=0"]);
+                assert_eq!(found, figures_of(light, &mut bench), "{of}");
+                bench.set(&["shadow_test=handout"]);
+                let map = figures_of(light, &mut bench);
+                assert!(map.grey > 1000, "{of}, without bias: {map}");
+            }
+        }
     }
 }
 
@@ -132,6 +178,9 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         "first_triangle",
         "firstTriangle",
         "LightBuffer",
+        "FittedMap",
+        "sampler2D depths;",
+        "vec4 nearness;",
         "samplerBuffer",
         "vec4 rectangle;",
         "int side;",
@@ -140,6 +189,14 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         "normal_lcs",
         "visibility = ",
         "dot(n, l) > 0)",
+        "if (inside_beam",
+        "shadow_factor = 1.0;",
+        "shadow_factor = 0.0;",
+        "instance",
+        "Normal = cross",
+        "float S(",
+        "return in_shadow",
+        "return mix(0.5",
         "}",
     ];
     for exact in [
@@ -147,6 +204,10 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
         "cs541/visibility_exact.frag",
         "csci3260/FragmentShaderCode_exact.glsl",
         "csci3260/visibility_exact.frag",
+        "aueb7/SpotLight_exact.frag",
+        "aueb7/visibility_exact.frag",
+        "cmsc23700/lighting_exact.frag",
+        "cmsc23700/visibility_exact.frag",
     ] {
         let others = |text: &str| {
             let mut lines = lines(text);
@@ -167,16 +228,25 @@ fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
             "csci3260/FragmentShaderCode_offset.glsl",
             "csci3260/visibility_offset.frag",
         ),
+        (
+            "cmsc23700/lighting_offset.frag",
+            "cmsc23700/visibility_offset.frag",
+        ),
+        (
+            "aueb7/SpotLight_offset.frag",
+            "aueb7/visibility_offset.frag",
+        ),
     ] {
+        let asking = ["normal_lcs", "Normal = cross", "S_l = S("];
         let asks = |path: &str| {
             let mut lines = lines(&read(path));
-            lines.retain(|line| line.contains("normal_lcs"));
+            lines.retain(|line| asking.iter().any(|word| line.contains(word)));
             lines
         };
         let same = |line: &String| line.trim_start_matches("float ").to_owned();
         let [a, b] =
             [lighting, visibility].map(|path| asks(path).iter().map(same).collect::<Vec<_>>());
-        assert_eq!(a.len(), 3);
+        assert!(a.len() >= 3, "{lighting}");
         assert_eq!(a, b);
     }
 }
@@ -226,10 +296,79 @@ fn the_map_is_drawn_when_light_or_casters_have_moved() {
     assert!(is_drawn(&|bench| bench.set(&redraw)), "in every frame");
 }
 
+#[test]
+fn the_spotlights_map_is_drawn_when_light_or_casters_have_moved() {
+    let mut bench = Bench::recorded("aueb7", [64, 64], &[OFFSET]);
+    bench.picture();
+    for (what, keys, settings, expected) in [
+        ("the eye", "wadrf", &[][..], false),
+        ("the world", "<Left>", &[], true),
+        ("wireframe", "<F1>", &[], false),
+        (
+            "what only the exercises' test has",
+            "",
+            &["step=4", "constant_depth_bias=0"],
+            false,
+        ),
+        ("what lies outside", "", &["outside=lit"], false),
+        ("a filter reaches farther", "", &["filter=pcf_9"], true),
+        ("another map", "", &["map_size=512"], true),
+        ("the light", "<Wait:0.2>", &["rotate_light=on"], true),
+        ("the scene", "", &["rotate_light=off", "scene=pirate"], true),
+        ("nothing", "", &[], false),
+    ] {
+        bench.set(settings);
+        bench.press(keys);
+        trace::take();
+        bench.picture();
+        let text = trace::to_c(&trace::take());
+        let drawn = text.contains("// first pass: DrawSceneToShadowFBO, fitted");
+        assert_eq!(drawn, expected, "{what}");
+        assert_eq!(text.contains("glPolygonOffset("), drawn, "{what}");
+    }
+}
+
+/// Of two lights, each map for itself.
+#[test]
+fn the_maps_of_the_enabled_lights_are_drawn_when_balls_have_moved() {
+    let settings = [OFFSET, "lights=spotlight"];
+    let mut bench = Bench::recorded("cmsc23700", [64, 64], &settings);
+    bench.picture();
+    for (what, keys, settings, expected) in [
+        ("at rest", "", &[][..], 0),
+        ("the other light is on, too", "", &["lights=both"], 1),
+        ("only the other", "", &["lights=directional"], 0),
+        ("one ball more", "+", &[], 1),
+        ("both again", "", &["lights=both"], 1),
+        ("the balls", "<Wait:0.1>", &[], 2),
+        (
+            "what only the handout's test has",
+            "",
+            &["directional_bias=0", "spot_bias=0"],
+            0,
+        ),
+        ("other maps", "", &["map_size=512"], 2),
+    ] {
+        bench.set(settings);
+        bench.press(keys);
+        trace::take();
+        bench.picture();
+        let text = trace::to_c(&trace::take());
+        let drawn = text.matches("'s fitted shadow map").count();
+        assert_eq!(drawn, expected, "{what}");
+        assert_eq!(text.contains("glPolygonOffset("), drawn > 0, "{what}");
+    }
+}
+
 /// Both tests draw into one texture, by turns.
 #[test]
 fn the_same_state_is_the_same_picture_whatever_came_before() {
-    for lab in ["cs541", "csci3260"] {
+    for (lab, size) in [
+        ("cs541", "map_size=1024"),
+        ("csci3260", "map_size=1024"),
+        ("aueb7", "map_size=128"),
+        ("cmsc23700", "map_size=1024"),
+    ] {
         let straight = Bench::new(lab, SIZE, &[OFFSET]).picture();
         let handouts = Bench::new(lab, SIZE, &[]).picture();
         assert!(differing(&straight, &handouts) > 20, "{lab}");
@@ -237,7 +376,7 @@ fn the_same_state_is_the_same_picture_whatever_came_before() {
         bench.picture();
         bench.set(&[OFFSET]);
         bench.picture();
-        bench.set(&["map_size=1024", "shadow_test=handout"]);
+        bench.set(&[size, "shadow_test=handout"]);
         bench.picture();
         bench.set(&[OFFSET]);
         bench.visibility();
@@ -251,7 +390,7 @@ fn the_same_state_is_the_same_picture_whatever_came_before() {
 #[test]
 fn the_map_can_be_shown_and_the_test_not_be_explained() {
     let folder = work_folder("offset_map");
-    for lab in ["cs541", "csci3260"] {
+    for lab in ["cs541", "csci3260", "aueb7", "cmsc23700"] {
         let run = |arguments: &[&str]| {
             Command::new(env!("CARGO_BIN_EXE_shadowlab"))
                 .current_dir(&folder)

@@ -20,7 +20,14 @@ uniform int beam;
 
 out vec4 frag_color;
 
-float light_share_of_source(vec3 position_lcs, vec3 normal_lcs);
+// A map that is fitted to what casts; it and its test are in shadow_tests/offset.frag.
+struct FittedMap {
+    sampler2D depths;
+    vec4 rectangle;
+    vec4 nearness;
+};
+uniform FittedMap fitted_map;
+float light_share_of_source(FittedMap fitted_map, vec3 position_lcs, vec3 normal_lcs);
 
 void main(void)
 {
@@ -34,7 +41,7 @@ void main(void)
     vec3 normal_lcs = cross(dFdx(position_lcs), dFdy(position_lcs));
     bool in_shadow = false;
     if ((inside_beam || beam == NO_BEAM) && dot(normal_vector, light_vector) > 0)
-        in_shadow = light_share_of_source(position_lcs, normal_lcs) < 0.5;
+        in_shadow = light_share_of_source(fitted_map, position_lcs, normal_lcs) < 0.5;
 
     // Local illumination: the light reaches what is in its beam and not in shadow.
     bool illuminated = !in_shadow && (inside_beam || beam == NO_BEAM);

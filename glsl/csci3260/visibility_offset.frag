@@ -7,12 +7,19 @@ in vec4 ShadowCoord;
 
 out vec4 color;
 
-float light_share_of_rays(vec3 position_lcs, vec3 normal_lcs);
+// A map that is fitted to what casts; it and its test are in shadow_tests/offset.frag.
+struct FittedMap {
+    sampler2D depths;
+    vec4 rectangle;
+    vec4 nearness;
+};
+uniform FittedMap fitted_map;
+float light_share_of_rays(FittedMap fitted_map, vec3 position_lcs, vec3 normal_lcs);
 
 void main()
 {
     vec3 normal_lcs = cross(dFdx(ShadowCoord.xyz), dFdy(ShadowCoord.xyz));
-    float visibility = mix(0.5, 1.0, light_share_of_rays(ShadowCoord.xyz, normal_lcs));
+    float visibility = mix(0.5, 1.0, light_share_of_rays(fitted_map, ShadowCoord.xyz, normal_lcs));
 
     color = vec4(vec3((visibility - 0.5) / 0.5), 1);
 }

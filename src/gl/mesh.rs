@@ -86,8 +86,13 @@ impl Mesh {
 
     /// Draws the mesh as often as there are instances, each with its own values of the attributes that have a divisor.
     pub fn draw_instances(&self, gl: &glow::Context, instances: usize) {
+        self.bind(gl);
+        self.draw_instances_again(gl, instances);
+    }
+
+    /// The same of the mesh that was drawn or bound last.
+    pub fn draw_instances_again(&self, gl: &glow::Context, instances: usize) {
         unsafe {
-            gl.bind_vertex_array(Some(self.vertex_array));
             gl.draw_elements_instanced(
                 glow::TRIANGLES,
                 self.index_count,

@@ -36,4 +36,8 @@ pub const SHADERS: &[(&str, &str)] = &[
         "shadow_tests/offset_five.frag",
         include_str!("../../glsl/shadow_tests/offset_five.frag"),
     ),
+    (
+        "shadow_tests/offset_nine.frag",
+        include_str!("../../glsl/shadow_tests/offset_nine.frag"),
+    ),
 ];

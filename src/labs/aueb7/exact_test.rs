@@ -6,16 +6,14 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
-use glam::DMat4;
 use glow::HasContext;
 
 use super::Aueb7;
-use super::programs::LIGHTING;
+use super::programs::{LIGHTING, VERTEX_SHADER};
 use super::spot_light::DIFFUSE;
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::Placed;
 use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER};
-use crate::{Error, Result};
 
 const BINDING: Binding = Binding {
     pass: "the light buffer",
@@ -38,7 +36,7 @@ const TEST: [&str; 7] = [
 /// The test and the programs that are linked with it; made when it is first asked for.
 pub struct Exact {
     builder: Builder,
-    test: ExactTest,
+    pub test: ExactTest,
     pub spot_light: Program,
     pub visibility: Program,
 }
@@ -69,7 +67,7 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let linked = |fragment: &str, others: &[&'static str]| {
         let uniforms = [&TEST[..], &LIGHT_BUFFER, others].concat();
         let fragments = [fragment, exact::SHADER];
-        Program::linked(gl, shaders, "SpotLight_exact.vert", &fragments, &uniforms)
+        Program::linked(gl, shaders, VERTEX_SHADER, &fragments, &uniforms)
     };
     let spot_light = linked("SpotLight_exact.frag", &LIGHTING)?;
     let visibility = linked("visibility_exact.frag", &[]).inspect_err(|_| spot_light.delete(gl))?;
@@ -77,24 +75,12 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
 }
 
 impl Aueb7 {
-    /// Whether the exact test is made: with shadows=off none is.
-    pub(super) fn is_exact(&self) -> bool {
-        self.settings.choice("shadow_test") == "exact" && self.settings.switch("shadows")
-    }
-
     /// Brings the light buffer up to date with the light and the scene graph.
     pub(super) fn prepare_exact_test(&mut self, gl: &glow::Context) -> Result<()> {
         if self.exact.is_none() {
             self.exact = Some(Exact::new(gl, &self.shaders)?);
         }
-        let geometry = self.geometry().into_iter();
-        let scene = geometry.map(|(object, model)| Placed {
-            mesh: object.mesh.clone(),
-            model,
-            casts: object.casts,
-        });
-        let scene = scene.collect();
-        let light = self.light();
+        let (light, scene) = (self.light(), self.placed());
         let every_frame = self.settings.choice("redraw") == "every_frame";
         let Exact { builder, test, .. } = self.exact.as_mut().expect("made above");
         test.prepare(gl, builder, &light, scene, every_frame)
@@ -117,34 +103,5 @@ impl Aueb7 {
         program.set(gl, "uniform_v", self.view());
         program.set(gl, "uniform_p", self.projection());
         program.set(gl, "uniform_outside", self.outside());
-    }
-
-    /// Where an object is as the light sees it, and which triangles are its own.
-    pub(super) fn set_exact_test(
-        &self,
-        gl: &glow::Context,
-        exact: &Exact,
-        program: &Program,
-        index: usize,
-        model: DMat4,
-    ) {
-        program.set(gl, "uniform_light_m", exact.test.from_object(model));
-        let first_triangle = exact.test.first_triangle(index);
-        program.set(gl, "uniform_first_triangle", first_triangle);
-    }
-
-    /// An error where the state has no shadow map.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout",
-            ));
-        }
-        Ok(())
     }
 }

@@ -10,6 +10,7 @@
 //! | Exercise 2: the shadow map resolution | the setting `map_size` |
 //! | Exercise 3: PCF, the bias, the step | `glsl/aueb7/is_point_in_shadow.frag`; the settings `filter`, `constant_depth_bias`, `step` |
 //! | `SceneGraphExampleInit`, `2`, `3` | `scenes.rs`; the setting `scene` |
+//! | no part of it: the map at its best | `offset_test.rs`; `glsl/aueb7/SpotLight_offset.frag` |
 //! | no part of it: a test without a map | `exact_test.rs`; `glsl/aueb7/SpotLight_exact.frag` |
 //!
 //! Of the course's texture units, 0 (diffuse) and 4 (the shadow map) are in use. Back faces are culled in both passes, so
@@ -25,10 +26,12 @@
 mod exact_test;
 mod explain;
 mod movement;
+mod offset_test;
 mod programs;
 mod scenes;
 mod settings;
 mod shadow_map;
+mod shadow_test;
 mod spot_light;
 mod stages;
 
@@ -47,10 +50,12 @@ use crate::picture::Projection;
 use crate::scene::{Beam, Light, LightKind, Object, Scene, shapes};
 use exact_test::Exact;
 use movement::Moved;
+use offset_test::Offset;
 use programs::{Programs, SHADERS, with_shadow_test};
 use scenes::SceneGraph;
 use settings::{KEYS, SETTINGS};
 use shadow_map::{MapInputs, ShadowFbo, create_shadow_fbo};
+use shadow_test::ShadowTest;
 
 pub static HANDOUT: Handout = Handout {
     name: "aueb7",
@@ -92,6 +97,7 @@ struct Aueb7 {
     drawn: Option<MapInputs>,
 
     /// What only the setting shadow_test asks for.
+    offset: Option<Offset>,
     exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
@@ -143,6 +149,7 @@ impl Aueb7 {
             largest_map,
             shadow_fbo,
             drawn: None,
+            offset: None,
             exact: None,
             visibility: None,
             explainer: None,
@@ -177,19 +184,26 @@ impl Aueb7 {
     }
 
     /// The shadow map in its present size, and the program that shows the test alone.
-    fn prepare_handouts_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
-        let size = map_size(self.largest_map, &self.settings);
-        if size != self.shadow_fbo.shadow_dimensions {
-            self.shadow_fbo.delete(gl);
-            self.shadow_fbo = create_shadow_fbo(gl, size)?;
-            self.drawn = None;
-        }
+    fn prepare_exercises_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        self.renew_shadow_fbo(gl)?;
         if self.visibility.is_none() && show != Show::Picture {
             let program =
                 with_shadow_test(gl, &self.shaders, "visibility.frag", &["uniform_shadows"])?;
             self.visibility = Some(program);
         }
         Ok(())
+    }
+
+    /// Another shadow map, if the settings ask for another size; says whether they do.
+    fn renew_shadow_fbo(&mut self, gl: &glow::Context) -> Result<bool> {
+        let size = map_size(self.largest_map, &self.settings);
+        let renewed = size != self.shadow_fbo.shadow_dimensions;
+        if renewed {
+            self.shadow_fbo.delete(gl);
+            self.shadow_fbo = create_shadow_fbo(gl, size)?;
+            self.drawn = None;
+        }
+        Ok(renewed)
     }
 
     /// The number of the present scene.
@@ -261,24 +275,23 @@ impl Lab for Aueb7 {
     #[doc(alias = "Render")]
     fn render(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.load_models(gl)?;
-        if self.is_exact() {
-            self.prepare_exact_test(gl)?;
-        } else {
-            self.release_exact_test(gl);
-            self.prepare_handouts_test(gl, show)?;
-        }
+        self.prepare_shadow_test(gl, show)?;
 
-        // F1's mode holds in both passes, and is gone after them.
+        // F1's mode holds in both of the exercises' passes, and is gone after them.
         let is_filled = self.polygon_mode == glow::FILL;
         if !is_filled {
             unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode) };
         }
-        if self.settings.switch("shadows") && !self.is_exact() {
+        if self.settings.switch("shadows") && self.chosen_test() == "handout" {
             let inputs = self.map_inputs();
             let redraw = self.settings.choice("redraw") == "every_frame";
             if redraw || self.drawn.as_ref() != Some(&inputs) {
                 self.draw_scene_to_shadow_fbo(gl, &inputs);
                 self.drawn = Some(inputs);
+                // The offset test's map is no more.
+                if let Some(offset) = &mut self.offset {
+                    offset.test.forget();
+                }
             }
         }
         match show {
@@ -293,10 +306,10 @@ impl Lab for Aueb7 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::load(gl, &self.shaders)?;
-        if let Some(exact) = &mut self.exact {
-            exact
-                .reload(gl, &self.shaders)
-                .inspect_err(|_| programs.delete(gl))?;
+        let offset = self.offset.as_mut().map(|o| o.reload(gl, &self.shaders));
+        let exact = self.exact.as_mut().map(|e| e.reload(gl, &self.shaders));
+        for reloaded in [offset, exact].into_iter().flatten() {
+            reloaded.inspect_err(|_| programs.delete(gl))?;
         }
         std::mem::replace(&mut self.programs, programs).delete(gl);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
@@ -305,21 +318,28 @@ impl Lab for Aueb7 {
         }
         // The map was drawn by the old shaders.
         self.drawn = None;
+        if let Some(offset) = &mut self.offset {
+            offset.test.forget();
+        }
         Ok(())
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
         self.check_map()?;
         let Light { near, far, .. } = self.light();
+        let (share, [near, far], bias) = match self.shadow_test() {
+            ShadowTest::Offset(offset) => (offset.test.share(), offset.test.planes(), 0.0),
+            _ => ([1.0; 2], [near, far], self.bias()),
+        };
         Ok(ShadowTexture {
             texture: self.shadow_fbo.fbo_shadow_texture,
             scale: MapScale {
                 size: self.shadow_fbo.shadow_dimensions,
-                share: [1.0; 2],
+                share,
                 projection: Projection::Perspective,
                 near,
                 far,
-                bias: self.bias(),
+                bias,
             },
         })
     }

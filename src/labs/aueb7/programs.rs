@@ -40,8 +40,8 @@ pub const SHADERS: &[(&str, &str)] = &[
         include_str!("../../../glsl/aueb7/explain.frag"),
     ),
     (
-        "SpotLight_exact.vert",
-        include_str!("../../../glsl/aueb7/SpotLight_exact.vert"),
+        "SpotLight_lcs.vert",
+        include_str!("../../../glsl/aueb7/SpotLight_lcs.vert"),
     ),
     (
         "SpotLight_exact.frag",
@@ -51,7 +51,19 @@ pub const SHADERS: &[(&str, &str)] = &[
         "visibility_exact.frag",
         include_str!("../../../glsl/aueb7/visibility_exact.frag"),
     ),
+    (
+        "SpotLight_offset.frag",
+        include_str!("../../../glsl/aueb7/SpotLight_offset.frag"),
+    ),
+    (
+        "visibility_offset.frag",
+        include_str!("../../../glsl/aueb7/visibility_offset.frag"),
+    ),
     shadow_tests::SHADERS[0],
+    shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
+    shadow_tests::SHADERS[3],
+    shadow_tests::SHADERS[4],
 ];
 
 /// Uniforms of every program with the shadow test.
@@ -131,6 +143,9 @@ impl Programs {
         }
     }
 }
+
+/// The spotlight's vertex shader, for the tests in the light's coordinate system.
+pub const VERTEX_SHADER: &str = "SpotLight_lcs.vert";
 
 /// The spotlight's vertex shader and the shadow test with a `main` that uses it.
 pub fn with_shadow_test(

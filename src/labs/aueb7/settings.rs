@@ -82,8 +82,8 @@ pub const SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "shadow_test",
-        kind: Kind::Choice(&["handout", "exact"]),
-        help: "the exercises' shadow map, or the ray to the light against every triangle that it can meet: no map, no bias, no filter, no resolution",
+        kind: Kind::Choice(&["handout", "offset", "exact"]),
+        help: "the exercises' shadow map; one fitted to what casts, drawn with glPolygonOffset and without constant_depth_bias, and with filter's samples one texel apart; or the ray to the light against every triangle that it can meet: no map, no bias, no filter, no resolution",
     },
     Setting {
         name: "rotate_light",

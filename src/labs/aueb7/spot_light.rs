@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4, DVec3};
 use glow::HasContext;
 
 use super::Aueb7;
+use super::shadow_test::ShadowTest;
 use crate::gl::{self, Program};
 use crate::scene::{Light, Object, camera};
 
@@ -14,7 +15,7 @@ use crate::scene::{Light, Object, camera};
 const MARKER_RADIUS: f64 = 0.2;
 /// The texture units, as in the course: 0 is an object's own, and behind the course's other maps comes the shadow map.
 pub const DIFFUSE: i32 = 0;
-const SHADOW_MAP: i32 = 4;
+pub const SHADOW_MAP: i32 = 4;
 
 impl Aueb7 {
     pub(super) fn aspect(&self) -> f64 {
@@ -42,24 +43,24 @@ impl Aueb7 {
     }
 
     pub(super) fn draw_scene(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let _pass = gl::pass(
-            gl,
-            match exact {
-                Some(_) => "second pass: Render, with the light buffer",
-                None => "second pass: Render",
-            },
-        );
+        let (heading, program) = match self.shadow_test() {
+            ShadowTest::Exercises => ("second pass: Render", &self.programs.spot_light),
+            ShadowTest::Offset(offset) => (
+                "second pass: Render, with the fitted map",
+                &offset.spot_light,
+            ),
+            ShadowTest::Exact(exact) => (
+                "second pass: Render, with the light buffer",
+                &exact.spot_light,
+            ),
+        };
+        let _pass = gl::pass(gl, heading);
         let [red, green, blue] = self.scene().clear.as_vec3().to_array();
         self.clear_window(gl, [red, green, blue, 1.0]);
         self.draw_spot_light_source(gl);
 
-        let program = exact.map_or(&self.programs.spot_light, |exact| &exact.spot_light);
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None => self.set_shadows(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         let (light, view) = (self.light(), self.view());
         let Light {
             position,
@@ -84,9 +85,7 @@ impl Aueb7 {
         self.draw(gl, |index, object, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index, model);
-            }
+            self.set_shadow_test(gl, program, index, model);
             let to_eye = DMat3::from_mat4(view * self.model_from_eye(model));
             let normal_matrix = to_eye.inverse().transpose();
             program.set(gl, "uniform_normal_matrix_ecs", normal_matrix);
@@ -97,25 +96,20 @@ impl Aueb7 {
 
     /// The shadow_factor alone.
     pub(super) fn draw_visibility(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let visibility = exact.map(|exact| &exact.visibility);
-        let program = visibility
-            .or(self.visibility.as_ref())
-            .expect("a frame makes it first");
+        let program = match self.shadow_test() {
+            ShadowTest::Exercises => self.visibility.as_ref().expect("a frame makes it first"),
+            ShadowTest::Offset(offset) => &offset.visibility,
+            ShadowTest::Exact(exact) => &exact.visibility,
+        };
         let _pass = gl::pass(gl, "second pass: the shadow_factor alone");
         self.clear_window(gl, [1.0; 4]);
         unsafe { gl.use_program(Some(program.handle)) };
-        match exact {
-            Some(exact) => self.use_light_buffer(gl, exact, program),
-            None => self.set_shadows(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         let mut bound = None;
         self.draw(gl, |index, _, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
-            if let Some(exact) = exact {
-                self.set_exact_test(gl, exact, program, index, model);
-            }
+            self.set_shadow_test(gl, program, index, model);
             true
         });
     }
@@ -181,7 +175,7 @@ impl Aueb7 {
     }
 
     /// Whether there are shadows, and the map that tells where.
-    fn set_shadows(&self, gl: &glow::Context, program: &Program) {
+    pub(super) fn set_shadows(&self, gl: &glow::Context, program: &Program) {
         self.use_shadow_map(gl, program);
         let shadows = self.settings.switch("shadows");
         program.set(gl, "uniform_shadows", i32::from(shadows));

@@ -113,6 +113,8 @@ pub const COMPARISONS: &[Comparison] = &[
             &["map_size=128..1024", "filter=none,pcf_5,pcf_9"],
             &["map_size=512", "filter=pcf_9", "step=1,4"],
             &["map_size=512", "constant_depth_bias=0,0.001"],
+            &["shadow_test=offset", "map_size=128..1024"],
+            &["shadow_test=offset", "map_size=512", "filter=pcf_5,pcf_9"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],
@@ -122,6 +124,7 @@ pub const COMPARISONS: &[Comparison] = &[
         set: &["scene=pirate"],
         sweeps: &[
             &["map_size=128,512,1024", "filter=none,pcf_9"],
+            &["shadow_test=offset", "map_size=128,512,1024"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],
@@ -132,6 +135,7 @@ pub const COMPARISONS: &[Comparison] = &[
         sweeps: &[
             &["map_size=128,512,1024", "filter=none,pcf_9"],
             &["map_size=1024", "constant_depth_bias=0,0.0001"],
+            &["shadow_test=offset", "map_size=128,512,1024"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],

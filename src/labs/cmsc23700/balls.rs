@@ -74,9 +74,14 @@ impl Balls {
         &self.positions
     }
 
-    pub fn draw(&self, gl: &glow::Context) {
+    /// Draws all of them; `again` if they are what was drawn last.
+    pub fn draw(&self, gl: &glow::Context, again: bool) {
         // DEVIATES: instancing, the course draws ball after ball; one call draws them all.
-        self.buffers.draw_instances(gl, self.positions.len());
+        let count = self.positions.len();
+        match again {
+            true => self.buffers.draw_instances_again(gl, count),
+            false => self.buffers.draw_instances(gl, count),
+        }
     }
 }
 

@@ -3,19 +3,16 @@
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
 
-use std::sync::Arc;
-
 use glam::DMat4;
 use glow::HasContext;
 
+use super::Cmsc23700;
 use super::lights::{self, CONE, LIGHTING};
 use super::second_pass::MATRICES;
-use super::{Cmsc23700, DIRECTIONAL, SPOT};
+use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::scene::{Object, Scene};
-use crate::shadow_tests::Placed;
+use crate::scene::Scene;
 use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest};
-use crate::{Error, Result};
 
 /// Behind the two shadow maps' texture units come two for each light.
 const BINDINGS: [Binding; 2] = [
@@ -41,8 +38,8 @@ const BINDINGS: [Binding; 2] = [
     },
 ];
 
-/// Of each light: object space to its coordinate system.
-const MODEL_MATRICES: [&str; 2] = ["directionalModelMatrix", "spotModelMatrix"];
+/// Of each light, in the tests that are no part of the handout: object space to its coordinate system.
+pub const MODEL_MATRICES: [&str; 2] = ["directionalModelMatrix", "spotModelMatrix"];
 
 /// The test of each light and the programs that are linked with it; made when it is first asked for.
 pub struct Exact {
@@ -114,21 +111,16 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
 }
 
 impl Cmsc23700 {
-    /// Whether the exact test is made: with shadows=off none is.
-    pub(super) fn is_exact(&self) -> bool {
-        self.settings.choice("shadow_test") == "exact" && self.settings.switch("shadows")
-    }
-
     /// Brings the light buffer of each enabled light up to date with it and the scene.
     pub(super) fn prepare_exact_tests(&mut self, gl: &glow::Context) -> Result<()> {
         if self.exact.is_none() {
             self.exact = Some(Exact::new(gl, &self.shaders, &self.scene)?);
         }
-        let enabled = self.enabled();
+        let lights = self.enabled_lights();
         let every_frame = self.settings.choice("redraw") == "every_frame";
         let scene = self.placed_scene();
         let Exact { builder, tests, .. } = self.exact.as_mut().expect("made above");
-        for light in [DIRECTIONAL, SPOT].into_iter().filter(|l| enabled[*l]) {
+        for light in lights {
             let source = &self.scene.lights[light];
             tests[light].prepare(gl, builder, source, scene.clone(), every_frame)?;
         }
@@ -142,24 +134,6 @@ impl Cmsc23700 {
         for test in exact.into_iter().flat_map(|exact| &mut exact.tests) {
             test.release(gl);
         }
-    }
-
-    /// The objects, and then each ball.
-    fn placed_scene(&self) -> Vec<Placed> {
-        let object = |object: &Object| Placed {
-            mesh: object.mesh.clone(),
-            model: self.model(object),
-            casts: object.casts,
-        };
-        // Where the GPU has it, which knows its place in f32.
-        let ball = |center: &glam::Vec3| Placed {
-            mesh: Arc::clone(&self.balls.mesh),
-            model: DMat4::from_translation(center.as_dvec3()),
-            casts: true,
-        };
-        let objects = self.scene.objects.iter().map(object);
-        let balls = self.balls.positions().iter().map(ball);
-        objects.chain(balls).collect()
     }
 
     /// The light buffer of each enabled light on its own texture units.
@@ -179,8 +153,7 @@ impl Cmsc23700 {
         number: usize,
         model: DMat4,
     ) {
-        let enabled = self.enabled();
-        for light in [DIRECTIONAL, SPOT].into_iter().filter(|l| enabled[*l]) {
+        for light in self.enabled_lights() {
             let test = &exact.tests[light];
             program.set(gl, MODEL_MATRICES[light], test.from_object(model));
             // Every light buffer counts the same triangles.
@@ -189,20 +162,5 @@ impl Cmsc23700 {
         let instance = self.scene.objects.get(number).map(|object| &object.mesh);
         let instance = instance.unwrap_or(&self.balls.mesh);
         program.set(gl, "instanceTriangles", instance.faces.len() as i32);
-    }
-
-    /// An error where the state has no shadow map of any light.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout",
-            ));
-        }
-        Ok(())
     }
 }

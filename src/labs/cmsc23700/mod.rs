@@ -11,6 +11,7 @@
 //! | User interface: `-` removes a ball from the simulation | [`simulation::Simulation::kill_ball`] |
 //! | Hints: the sphere of radius √3, the orthographic projection, the texture matrix | `scene.rs`, `lights.rs`: `LightCamera` |
 //! | Hints: the shadow map on the screen, from −1 black to 1 white | [`Lab::grey`] |
+//! | no part of it: the maps at their best | `offset_test.rs`; `glsl/cmsc23700/lighting_offset.frag` |
 //! | no part of it: a test without a map | `exact_test.rs`; `glsl/cmsc23700/lighting_exact.frag` |
 //!
 //! Chosen, because the handout does not say it: which ball is removed (the newest), and which of the eight colours a
@@ -26,13 +27,16 @@ mod balls;
 mod exact_test;
 mod explain;
 mod lights;
+mod offset_test;
 mod scene;
 mod second_pass;
 mod settings;
 mod shadow_map;
+mod shadow_test;
 pub mod simulation;
 mod stages;
 
+use std::cell::Cell;
 use std::path::Path;
 
 use glow::HasContext;
@@ -43,12 +47,15 @@ use super::{
 use crate::gl::{self, Program, Shaders};
 use crate::picture::{Grey, Projection};
 use crate::scene::{Light, Object, Scene};
+use crate::shadow_tests::offset::OffsetTest;
 use crate::{Error, Result, shadow_tests};
 use balls::Balls;
 use exact_test::Exact;
 use lights::LightCamera;
+use offset_test::Offset;
 use settings::{KEYS, SETTINGS};
 use shadow_map::ShadowMap;
+use shadow_test::ShadowTest;
 use simulation::Simulation;
 
 pub static HANDOUT: Handout = Handout {
@@ -104,7 +111,21 @@ const SHADERS: &[(&str, &str)] = &[
         "visibility_exact.frag",
         include_str!("../../../glsl/cmsc23700/visibility_exact.frag"),
     ),
+    (
+        "lighting_offset.vert",
+        include_str!("../../../glsl/cmsc23700/lighting_offset.vert"),
+    ),
+    (
+        "lighting_offset.frag",
+        include_str!("../../../glsl/cmsc23700/lighting_offset.frag"),
+    ),
+    (
+        "visibility_offset.frag",
+        include_str!("../../../glsl/cmsc23700/visibility_offset.frag"),
+    ),
     shadow_tests::SHADERS[0],
+    shadow_tests::SHADERS[1],
+    shadow_tests::SHADERS[2],
 ];
 
 /// The lights' numbers in the scene, and their texture units.
@@ -126,6 +147,8 @@ struct Cmsc23700 {
     /// What both passes draw.
     meshes: Vec<gl::Mesh>,
     balls: Balls,
+    /// The number of what this frame has drawn last: its vertex array is bound.
+    bound: Cell<Option<usize>>,
 
     shaders: Shaders,
     programs: Programs,
@@ -134,6 +157,7 @@ struct Cmsc23700 {
     largest_map: u32,
 
     /// What only the setting shadow_test asks for.
+    offset: Option<Offset>,
     exact: Option<Exact>,
     /// Programs that only the measuring commands ask for.
     visibility: Option<Program>,
@@ -189,10 +213,12 @@ impl Cmsc23700 {
             light_cameras,
             meshes,
             balls,
+            bound: Cell::new(None),
             shaders,
             programs,
             shadow_maps,
             largest_map,
+            offset: None,
             exact: None,
             visibility: None,
             explainer: None,
@@ -242,12 +268,8 @@ impl Cmsc23700 {
     fn draw(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.match_balls();
         self.balls.take_positions(gl, &self.simulation);
-        if self.is_exact() {
-            self.prepare_exact_tests(gl)?;
-        } else {
-            self.release_exact_tests(gl);
-            self.prepare_shadow_maps(gl)?;
-        }
+        self.bound.set(None);
+        self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => self.draw_picture(gl),
             Show::Visibility { light } => {
@@ -260,19 +282,26 @@ impl Cmsc23700 {
 
     /// The shadow maps, drawn anew where the last ones do not serve on.
     fn prepare_shadow_maps(&mut self, gl: &glow::Context) -> Result<()> {
-        let size = self
-            .largest_map
-            .min(self.settings.number("map_size") as u32);
-        for (light, map) in self.shadow_maps.iter_mut().enumerate() {
-            if size != map.size {
-                map.delete(gl);
-                *map = ShadowMap::new(gl, light, size)?;
-            }
-        }
+        self.renew_shadow_maps(gl)?;
         if self.settings.switch("shadows") {
             self.draw_shadow_maps(gl);
         }
         Ok(())
+    }
+
+    /// Other shadow maps, if the settings ask for another size; says whether they do.
+    fn renew_shadow_maps(&mut self, gl: &glow::Context) -> Result<bool> {
+        let size = self
+            .largest_map
+            .min(self.settings.number("map_size") as u32);
+        let renewed = size != self.shadow_maps[0].size;
+        if renewed {
+            for (light, map) in self.shadow_maps.iter_mut().enumerate() {
+                map.delete(gl);
+                *map = ShadowMap::new(gl, light, size)?;
+            }
+        }
+        Ok(renewed)
     }
 }
 
@@ -346,13 +375,14 @@ impl Lab for Cmsc23700 {
 
     fn reload(&mut self, gl: &glow::Context) -> Result<()> {
         let programs = Programs::new(gl, &self.shaders)?;
-        if let Some(exact) = &mut self.exact {
-            exact
-                .reload(gl, &self.shaders, &self.scene)
-                .inspect_err(|_| {
-                    programs.shadow.delete(gl);
-                    programs.lighting.delete(gl);
-                })?;
+        let (shaders, scene) = (&self.shaders, &self.scene);
+        let offset = self.offset.as_mut().map(|o| o.reload(gl, shaders, scene));
+        let exact = self.exact.as_mut().map(|e| e.reload(gl, shaders, scene));
+        for reloaded in [offset, exact].into_iter().flatten() {
+            reloaded.inspect_err(|_| {
+                programs.shadow.delete(gl);
+                programs.lighting.delete(gl);
+            })?;
         }
         let old = std::mem::replace(&mut self.programs, programs);
         let made_on_demand = [self.visibility.take(), self.explainer.take()];
@@ -364,6 +394,9 @@ impl Lab for Cmsc23700 {
         // The maps were drawn by the old shaders.
         for map in &mut self.shadow_maps {
             map.drawn = None;
+        }
+        if let Some(offset) = &mut self.offset {
+            offset.tests.iter_mut().for_each(OffsetTest::forget);
         }
         Ok(())
     }
@@ -385,15 +418,21 @@ impl Lab for Cmsc23700 {
         let number = light - 1;
         let map = &self.shadow_maps[number];
         let Light { near, far, .. } = self.scene.lights[number];
+        let (share, [near, far], bias) = match self.shadow_test() {
+            ShadowTest::Offset(Offset { tests, .. }) => {
+                (tests[number].share(), tests[number].planes(), 0.0)
+            }
+            _ => ([1.0; 2], [near, far], self.bias(number)),
+        };
         Ok(ShadowTexture {
             texture: map.depth_texture,
             scale: MapScale {
                 size: map.size,
-                share: [1.0; 2],
+                share,
                 projection: [Projection::Orthographic, Projection::Perspective][number],
                 near,
                 far,
-                bias: self.bias(number),
+                bias,
             },
         })
     }

@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4};
 use glow::HasContext;
 
 use super::lights::{self, CONE, LIGHTING, SHADOW_TEST};
+use super::shadow_test::ShadowTest;
 use super::{Cmsc23700, DIRECTIONAL, SPOT};
 use crate::Result;
 use crate::gl::trace::{ObjectKind, name_object};
@@ -72,23 +73,17 @@ impl Cmsc23700 {
     }
 
     pub(super) fn draw_picture(&self, gl: &glow::Context) {
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let _pass = gl::pass(
-            gl,
-            match exact {
-                Some(_) => "second pass: with the light buffers",
-                None => "second pass",
-            },
-        );
-        let program = exact.map_or(&self.programs.lighting, |exact| &exact.lighting);
+        let (heading, program) = match self.shadow_test() {
+            ShadowTest::Handout => ("second pass", &self.programs.lighting),
+            ShadowTest::Offset(offset) => ("second pass: with the fitted maps", &offset.lighting),
+            ShadowTest::Exact(exact) => ("second pass: with the light buffers", &exact.lighting),
+        };
+        let _pass = gl::pass(gl, heading);
         let [directional, spot] = self.enabled().map(i32::from);
         let [red, green, blue] = self.scene.clear.as_vec3().to_array();
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [red, green, blue, 1.0]);
-        match exact {
-            Some(exact) => self.use_light_buffers(gl, exact, program),
-            None => self.set_shadows(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         program.set(gl, "directionalEnabled", directional);
         program.set(gl, "spotEnabled", spot);
         program.set(gl, "projection", self.projection());
@@ -96,9 +91,7 @@ impl Cmsc23700 {
             gl,
             |_| true,
             |number, model| {
-                if let Some(exact) = exact {
-                    self.set_exact_test(gl, exact, program, number, model);
-                }
+                self.set_shadow_test(gl, program, number, model);
                 let model_view = self.model_view(model);
                 let normal_matrix = DMat3::from_mat4(model_view).inverse().transpose();
                 program.set(gl, "modelView", model_view);
@@ -109,7 +102,8 @@ impl Cmsc23700 {
 
     /// The shadow test alone, for a light counted from 1.
     pub(super) fn draw_visibility(&mut self, gl: &glow::Context, light: usize) -> Result<()> {
-        if self.visibility.is_none() && !self.is_exact() {
+        let is_handouts = matches!(self.shadow_test(), ShadowTest::Handout);
+        if self.visibility.is_none() && is_handouts {
             let _pass = gl::pass(gl, "set-up: the visibility program");
             let own = ["shadows", "light"];
             let program = with_shadow_test(gl, &self.shaders, "visibility.frag", &own)?;
@@ -117,25 +111,22 @@ impl Cmsc23700 {
             lights::set_shadow_test(gl, &program, &self.scene, &self.light_cameras);
             self.visibility = Some(program);
         }
-        let exact = self.exact.as_ref().filter(|_| self.is_exact());
-        let visibility = exact.map(|exact| &exact.visibility);
-        let program = visibility.or(self.visibility.as_ref()).expect("made above");
+        let program = match self.shadow_test() {
+            ShadowTest::Handout => self.visibility.as_ref().expect("made above"),
+            ShadowTest::Offset(offset) => &offset.visibility,
+            ShadowTest::Exact(exact) => &exact.visibility,
+        };
         let _pass = gl::pass(gl, "second pass: the test alone");
         unsafe { gl.use_program(Some(program.handle)) };
         self.select_window(gl, [1.0; 4]);
-        match exact {
-            Some(exact) => self.use_light_buffers(gl, exact, program),
-            None => self.set_shadows(gl, program),
-        }
+        self.use_shadow_test(gl, program);
         program.set(gl, "light", light as i32);
         program.set(gl, "projection", self.projection());
         self.draw_scene(
             gl,
             |_| true,
             |number, model| {
-                if let Some(exact) = exact {
-                    self.set_exact_test(gl, exact, program, number, model);
-                }
+                self.set_shadow_test(gl, program, number, model);
                 program.set(gl, "modelView", self.model_view(model));
             },
         );
@@ -157,7 +148,7 @@ impl Cmsc23700 {
     }
 
     /// Whether there are shadows, and the maps that tell where.
-    fn set_shadows(&self, gl: &glow::Context, program: &Program) {
+    pub(super) fn set_shadows(&self, gl: &glow::Context, program: &Program) {
         let shadows = self.settings.switch("shadows");
         if shadows {
             self.use_shadow_maps(gl, program);
@@ -190,19 +181,25 @@ impl Cmsc23700 {
         &self,
         gl: &glow::Context,
         wanted: impl Fn(usize) -> bool,
-        set_model: impl Fn(usize, DMat4),
+        mut set_model: impl FnMut(usize, DMat4),
     ) {
         let objects = &self.scene.objects;
+        let mut bound = self.bound.take();
         for (number, (object, mesh)) in objects.iter().zip(&self.meshes).enumerate() {
             if wanted(number) {
                 set_model(number, self.model(object));
-                mesh.draw(gl);
+                match bound.replace(number) == Some(number) {
+                    true => mesh.draw_again(gl),
+                    false => mesh.draw(gl),
+                }
             }
         }
         if !self.balls.positions().is_empty() && wanted(objects.len()) {
             // Their places are told in the world itself.
             set_model(objects.len(), DMat4::IDENTITY);
-            self.balls.draw(gl);
+            let again = bound.replace(objects.len()) == Some(objects.len());
+            self.balls.draw(gl, again);
         }
+        self.bound.set(bound);
     }
 }

@@ -67,8 +67,8 @@ pub const SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "shadow_test",
-        kind: Kind::Choice(&["handout", "exact"]),
-        help: "the handout's shadow maps, or the ray to each light against every triangle that it can meet: no map, no bias, no resolution",
+        kind: Kind::Choice(&["handout", "offset", "exact"]),
+        help: "the handout's shadow maps; maps that are fitted to what casts, drawn with glPolygonOffset and without bias; or the ray to each light against every triangle that it can meet: no map, no bias, no resolution",
     },
     Setting {
         name: "redraw",

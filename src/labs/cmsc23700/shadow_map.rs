@@ -163,6 +163,10 @@ impl Cmsc23700 {
                 },
             );
             self.shadow_maps[light].drawn = Some(inputs);
+            // The offset test's map is no more.
+            if let Some(offset) = &mut self.offset {
+                offset.tests[light].forget();
+            }
         }
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, None) };
     }

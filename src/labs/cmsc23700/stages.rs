@@ -68,6 +68,7 @@ pub const COMPARISONS: &[Comparison] = &[
             &["map_size=256..4096"],
             &["directional_bias=0", "spot_bias=0"],
             &["directional_bias=0.01", "spot_bias=0.01"],
+            &["shadow_test=offset", "map_size=256..4096"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],
@@ -77,6 +78,7 @@ pub const COMPARISONS: &[Comparison] = &[
         set: &["balls=100"],
         sweeps: &[
             &["map_size=512..2048"],
+            &["shadow_test=offset", "map_size=512..2048"],
             &["shadow_test=exact"],
             &["shadows=off"],
         ],

@@ -11,7 +11,7 @@ use super::Cs541;
 use super::programs::{offset_lighting_program, offset_visibility_program};
 use crate::Result;
 use crate::gl::{self, Program, Shaders};
-use crate::shadow_tests::offset::{Casts, OffsetTest, Taps, UNITS, set_culling};
+use crate::shadow_tests::offset::{Casts, FITTED_MAP, OffsetTest, Taps, UNITS, set_culling};
 
 /// A filter, of depths or of tests, costs more than the handout's whole test, and makes no shadow truer.
 pub const TAPS: Taps = Taps::One;
@@ -116,7 +116,7 @@ impl Cs541 {
                 Some(self.shadow_buffer.depth_texture_buffer),
             );
         }
-        offset.test.send(gl, program, 1);
+        offset.test.send(gl, program, &FITTED_MAP, 1);
         program.set(gl, "beam", self.beam());
         self.set_camera(gl, program);
     }

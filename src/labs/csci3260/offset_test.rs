@@ -126,6 +126,6 @@ impl Csci3260 {
             gl.active_texture(glow::TEXTURE1);
             gl.bind_texture(glow::TEXTURE_2D, Some(self.target.depth_texture));
         }
-        offset.test.send(gl, program, 1);
+        offset.test.send(gl, program, &offset::FITTED_MAP, 1);
     }
 }

@@ -18,7 +18,6 @@
 //!   may be the steeper one, is in it.
 //!
 //! Neither leaves a constant to be chosen. What is left falls short by no more than a texel: the map's resolution.
-
 //!
 //! SAFETY: see [`crate::gl`]; every call here has the current context and passes no pointer of its own.
 #![allow(unsafe_code)]
@@ -38,8 +37,12 @@ use crate::shadow_tests::Placed;
 /// The file of [`super::SHADERS`]; one of [`Taps`] belongs to it.
 pub const SHADER: &str = "shadow_tests/offset.frag";
 
-/// The uniforms of `offset.frag`.
-pub const FITTED_MAP: [&str; 3] = ["fitted_map", "fitted_map_rectangle", "fitted_map_depths"];
+/// The uniforms of a program with one fitted map.
+pub const FITTED_MAP: [&str; 3] = [
+    "fitted_map.depths",
+    "fitted_map.rectangle",
+    "fitted_map.nearness",
+];
 
 /// The second number of `glPolygonOffset`, in what the depth format can tell apart: the stored depth and the point's are
 /// each rounded when they are projected, interpolated and stored.
@@ -54,6 +57,8 @@ pub enum Taps {
     One,
     /// Its own and one on each side, whose mean is taken.
     Five,
+    /// And the four at its corners.
+    Nine,
 }
 
 impl Taps {
@@ -63,6 +68,7 @@ impl Taps {
         let reach = match self {
             Self::One => 0.5 + 0.5,
             Self::Five => 1.5 + 0.5,
+            Self::Nine => 1.5 + 1.5,
         };
         reach + 2.0 * SNAP
     }
@@ -72,6 +78,7 @@ impl Taps {
         match self {
             Self::One => "shadow_tests/offset_one.frag",
             Self::Five => "shadow_tests/offset_five.frag",
+            Self::Nine => "shadow_tests/offset_nine.frag",
         }
     }
 }
@@ -150,12 +157,20 @@ impl OffsetTest {
             .expect("a frame prepares the test first")
     }
 
-    /// Tells a program, which must be in use, of the map that is bound to this texture unit.
-    pub fn send(&self, gl: &glow::Context, program: &Program, unit: i32) {
+    /// Tells a program, which must be in use, of the map that is bound to this texture unit. The uniforms are those of a
+    /// `FittedMap`, as [`FITTED_MAP`] has them.
+    pub fn send(
+        &self,
+        gl: &glow::Context,
+        program: &Program,
+        uniforms: &[&'static str; 3],
+        unit: i32,
+    ) {
         let (inputs, fit) = self.fitted();
-        program.set(gl, "fitted_map", unit);
-        program.set(gl, "fitted_map_rectangle", fit.rectangle(inputs.size));
-        program.set(gl, "fitted_map_depths", fit.depths(inputs.size));
+        let [depths, rectangle, nearness] = *uniforms;
+        program.set(gl, depths, unit);
+        program.set(gl, rectangle, fit.rectangle(inputs.size));
+        program.set(gl, nearness, fit.depths(inputs.size));
     }
 
     /// How much of the light's own field of view (or box) the map covers, across and up.

@@ -67,10 +67,11 @@ impl Aueb7 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
-            ));
+        let test = self.settings.choice("shadow_test");
+        if test != "handout" {
+            return Err(Error::usage(format!(
+                "shadow_test={test} is no test of the exercises to explain, expected shadow_test=handout"
+            )));
         }
         if self.polygon_mode != glow::FILL {
             return Err(Error::usage(

@@ -68,10 +68,11 @@ impl Cmsc23700 {
                 "shadows=off makes no shadow test to explain, expected shadows=on",
             ));
         }
-        if self.is_exact() {
-            return Err(Error::usage(
-                "shadow_test=exact has no shadow map to explain, expected shadow_test=handout",
-            ));
+        let test = self.settings.choice("shadow_test");
+        if test != "handout" {
+            return Err(Error::usage(format!(
+                "shadow_test={test} is no test of the handout to explain, expected shadow_test=handout"
+            )));
         }
         probe.check(self.size)
     }

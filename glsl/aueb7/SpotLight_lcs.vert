@@ -1,6 +1,6 @@
 #version 330 core
-// SpotLight.vert for the exact shadow test: each vertex as the light sees it, too. A test holds the two files equal but
-// for that.
+// SpotLight.vert for the tests in the light's coordinate system: each vertex as the light sees it, too. A test holds the
+// two files equal but for that.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

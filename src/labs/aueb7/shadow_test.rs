@@ -1,0 +1,106 @@
+//! The setting `shadow_test`: the exercises' test, or one that is no part of them.
+
+use glam::DMat4;
+
+use super::Aueb7;
+use super::exact_test::Exact;
+use super::offset_test::Offset;
+use crate::gl::Program;
+use crate::labs::Show;
+use crate::shadow_tests::Placed;
+use crate::{Error, Result};
+
+/// The shadow test that a frame makes.
+#[derive(Clone, Copy)]
+pub enum ShadowTest<'a> {
+    Exercises,
+    Offset(&'a Offset),
+    Exact(&'a Exact),
+}
+
+impl Aueb7 {
+    /// The chosen test's name: with shadows=off none is made, as the exercises' shader does it.
+    pub(super) fn chosen_test(&self) -> &'static str {
+        match self.settings.switch("shadows") {
+            true => self.settings.choice("shadow_test"),
+            false => "handout",
+        }
+    }
+
+    pub(super) fn prepare_shadow_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
+        self.release_exact_test(gl);
+        match self.chosen_test() {
+            "exact" => self.prepare_exact_test(gl),
+            "offset" => self.prepare_offset_test(gl),
+            _ => self.prepare_exercises_test(gl, show),
+        }
+    }
+
+    /// The test that this frame has prepared.
+    pub(super) fn shadow_test(&self) -> ShadowTest<'_> {
+        match (self.chosen_test(), &self.offset, &self.exact) {
+            ("offset", Some(offset), _) => ShadowTest::Offset(offset),
+            ("exact", _, Some(exact)) => ShadowTest::Exact(exact),
+            _ => ShadowTest::Exercises,
+        }
+    }
+
+    /// What is drawn, in the order in which it is.
+    pub(super) fn placed(&self) -> Vec<Placed> {
+        let geometry = self.geometry().into_iter();
+        let placed = geometry.map(|(object, model)| Placed {
+            mesh: object.mesh.clone(),
+            model,
+            casts: object.casts,
+        });
+        placed.collect()
+    }
+
+    /// What every program with a shadow test needs.
+    pub(super) fn use_shadow_test(&self, gl: &glow::Context, program: &Program) {
+        match self.shadow_test() {
+            ShadowTest::Exercises => self.set_shadows(gl, program),
+            ShadowTest::Offset(offset) => self.use_fitted_map(gl, offset, program),
+            ShadowTest::Exact(exact) => self.use_light_buffer(gl, exact, program),
+        }
+    }
+
+    /// What a shadow test needs of an object, beside its place as the eye sees it.
+    pub(super) fn set_shadow_test(
+        &self,
+        gl: &glow::Context,
+        program: &Program,
+        index: usize,
+        model: DMat4,
+    ) {
+        match self.shadow_test() {
+            ShadowTest::Exercises => (),
+            // Where it is as the light sees it.
+            ShadowTest::Offset(offset) => {
+                let space = offset.test.fit().space;
+                program.set(gl, "uniform_light_m", space.from_object(model));
+            }
+            // And which triangles are its own.
+            ShadowTest::Exact(exact) => {
+                program.set(gl, "uniform_light_m", exact.test.from_object(model));
+                let first_triangle = exact.test.first_triangle(index);
+                program.set(gl, "uniform_first_triangle", first_triangle);
+            }
+        }
+    }
+
+    /// An error where the state has no shadow map.
+    pub(super) fn check_map(&self) -> Result<()> {
+        if !self.settings.switch("shadows") {
+            return Err(Error::usage(
+                "shadows=off draws no shadow map, expected shadows=on",
+            ));
+        }
+        if self.chosen_test() == "exact" {
+            return Err(Error::usage(
+                "shadow_test=exact draws no shadow map, expected shadow_test=handout or offset",
+            ));
+        }
+        Ok(())
+    }
+}
