@@ -166,7 +166,14 @@ const PROGRAM: &[&str] = &["cli"];
 const FENCED: &[&str] = &["glow", "glutin", "glutin_winit", "winit"];
 
 /// The files beside the labs that all labs share. Every other file or folder in `src/labs` is a lab.
-const SEAM: &[&str] = &["mod", "settings", "keys", "explanation", "exact"];
+const SEAM: &[&str] = &[
+    "mod",
+    "settings",
+    "keys",
+    "explanation",
+    "exact",
+    "chosen_test",
+];
 
 /// What the root re-exports, and the room that it comes from.
 const ROOT_ITEMS: &[(&str, &str)] = &[("Error", "error"), ("Result", "error")];

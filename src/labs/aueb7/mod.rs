@@ -41,6 +41,7 @@ use std::path::Path;
 use glam::DMat4;
 use glow::HasContext;
 
+use super::chosen_test::{check_map, chosen_test};
 use super::{
     Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -282,7 +283,7 @@ impl Lab for Aueb7 {
         if !is_filled {
             unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode) };
         }
-        if self.settings.switch("shadows") && self.chosen_test() == "handout" {
+        if self.settings.switch("shadows") && chosen_test(&self.settings) == "handout" {
             let inputs = self.map_inputs();
             let redraw = self.settings.choice("redraw") == "every_frame";
             if redraw || self.drawn.as_ref() != Some(&inputs) {
@@ -325,7 +326,7 @@ impl Lab for Aueb7 {
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
-        self.check_map()?;
+        check_map(&self.settings)?;
         let Light { near, far, .. } = self.light();
         let (share, [near, far], bias) = match self.shadow_test() {
             ShadowTest::Offset(offset) => (offset.test.share(), offset.test.planes(), 0.0),

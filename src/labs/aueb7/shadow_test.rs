@@ -5,10 +5,11 @@ use glam::DMat4;
 use super::Aueb7;
 use super::exact_test::Exact;
 use super::offset_test::Offset;
+use crate::Result;
 use crate::gl::Program;
 use crate::labs::Show;
+use crate::labs::chosen_test::chosen_test;
 use crate::shadow_tests::Placed;
-use crate::{Error, Result};
 
 /// The shadow test that a frame makes.
 #[derive(Clone, Copy)]
@@ -19,17 +20,9 @@ pub enum ShadowTest<'a> {
 }
 
 impl Aueb7 {
-    /// The chosen test's name: with shadows=off none is made, as the exercises' shader does it.
-    pub(super) fn chosen_test(&self) -> &'static str {
-        match self.settings.switch("shadows") {
-            true => self.settings.choice("shadow_test"),
-            false => "handout",
-        }
-    }
-
     pub(super) fn prepare_shadow_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.release_exact_test(gl);
-        match self.chosen_test() {
+        match chosen_test(&self.settings) {
             "exact" => self.prepare_exact_test(gl),
             "offset" => self.prepare_offset_test(gl),
             _ => self.prepare_exercises_test(gl, show),
@@ -38,7 +31,7 @@ impl Aueb7 {
 
     /// The test that this frame has prepared.
     pub(super) fn shadow_test(&self) -> ShadowTest<'_> {
-        match (self.chosen_test(), &self.offset, &self.exact) {
+        match (chosen_test(&self.settings), &self.offset, &self.exact) {
             ("offset", Some(offset), _) => ShadowTest::Offset(offset),
             ("exact", _, Some(exact)) => ShadowTest::Exact(exact),
             _ => ShadowTest::Exercises,
@@ -87,20 +80,5 @@ impl Aueb7 {
                 program.set(gl, "uniform_first_triangle", first_triangle);
             }
         }
-    }
-
-    /// An error where the state has no shadow map.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.chosen_test() == "exact" {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout or offset",
-            ));
-        }
-        Ok(())
     }
 }

@@ -41,6 +41,7 @@ use std::path::Path;
 
 use glow::HasContext;
 
+use super::chosen_test::check_map;
 use super::{
     Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -414,7 +415,7 @@ impl Lab for Cmsc23700 {
 
     fn shadow_texture(&self, light: usize) -> Result<ShadowTexture> {
         self.check_light(light)?;
-        self.check_map()?;
+        check_map(&self.settings)?;
         let number = light - 1;
         let map = &self.shadow_maps[number];
         let Light { near, far, .. } = self.scene.lights[number];

@@ -7,10 +7,11 @@ use glam::DMat4;
 use super::exact_test::Exact;
 use super::offset_test::Offset;
 use super::{Cmsc23700, DIRECTIONAL, SPOT};
+use crate::Result;
 use crate::gl::Program;
+use crate::labs::chosen_test::chosen_test;
 use crate::scene::Object;
 use crate::shadow_tests::Placed;
-use crate::{Error, Result};
 
 /// The shadow test that a frame makes.
 #[derive(Clone, Copy)]
@@ -21,17 +22,9 @@ pub enum ShadowTest<'a> {
 }
 
 impl Cmsc23700 {
-    /// The chosen test's name: with shadows=off none is made, as the handout's shader does it.
-    fn chosen_test(&self) -> &'static str {
-        match self.settings.switch("shadows") {
-            true => self.settings.choice("shadow_test"),
-            false => "handout",
-        }
-    }
-
     pub(super) fn prepare_shadow_test(&mut self, gl: &glow::Context) -> Result<()> {
         self.release_exact_tests(gl);
-        match self.chosen_test() {
+        match chosen_test(&self.settings) {
             "exact" => self.prepare_exact_tests(gl),
             "offset" => self.prepare_offset_tests(gl),
             _ => self.prepare_shadow_maps(gl),
@@ -40,7 +33,7 @@ impl Cmsc23700 {
 
     /// The test that this frame has prepared.
     pub(super) fn shadow_test(&self) -> ShadowTest<'_> {
-        match (self.chosen_test(), &self.offset, &self.exact) {
+        match (chosen_test(&self.settings), &self.offset, &self.exact) {
             ("offset", Some(offset), _) => ShadowTest::Offset(offset),
             ("exact", _, Some(exact)) => ShadowTest::Exact(exact),
             _ => ShadowTest::Handout,
@@ -96,20 +89,5 @@ impl Cmsc23700 {
             ShadowTest::Offset(offset) => self.set_offset_test(gl, offset, program, model),
             ShadowTest::Exact(exact) => self.set_exact_test(gl, exact, program, number, model),
         }
-    }
-
-    /// An error where the state has no shadow map of any light.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.chosen_test() == "exact" {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout or offset",
-            ));
-        }
-        Ok(())
     }
 }

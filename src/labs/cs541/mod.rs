@@ -34,6 +34,7 @@ use std::path::Path;
 use glam::DVec3;
 use glow::HasContext;
 
+use super::chosen_test::check_map;
 use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -339,7 +340,7 @@ impl Lab for Cs541 {
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {
-        self.check_map()?;
+        check_map(&self.settings)?;
         let Light { near, far, .. } = *self.light();
         let (share, [near, far], bias) = match self.shadow_test() {
             ShadowTest::Offset(offset) => (offset.test.share(), offset.test.planes(), 0.0),

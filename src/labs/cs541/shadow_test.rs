@@ -3,10 +3,11 @@
 use super::Cs541;
 use super::exact_test::Exact;
 use super::offset_test::Offset;
+use crate::Result;
 use crate::gl::Program;
+use crate::labs::chosen_test::chosen_test;
 use crate::scene::{Light, Object};
 use crate::shadow_tests::Placed;
-use crate::{Error, Result};
 
 /// The shadow test that a frame makes.
 #[derive(Clone, Copy)]
@@ -17,17 +18,9 @@ pub enum ShadowTest<'a> {
 }
 
 impl Cs541 {
-    /// The chosen test's name: with shadows=off none is made, as the handout's shader does it.
-    pub(super) fn chosen_test(&self) -> &'static str {
-        match self.settings.switch("shadows") {
-            true => self.settings.choice("shadow_test"),
-            false => "handout",
-        }
-    }
-
     pub(super) fn prepare_shadow_test(&mut self, gl: &glow::Context) -> Result<()> {
         self.release_exact_test(gl);
-        match self.chosen_test() {
+        match chosen_test(&self.settings) {
             "exact" => self.prepare_exact_test(gl),
             "offset" => self.prepare_offset_test(gl),
             _ => self.prepare_shadow_map(gl),
@@ -36,7 +29,7 @@ impl Cs541 {
 
     /// The test that this frame has prepared.
     pub(super) fn shadow_test(&self) -> ShadowTest<'_> {
-        match (self.chosen_test(), &self.offset, &self.exact) {
+        match (chosen_test(&self.settings), &self.offset, &self.exact) {
             ("offset", Some(offset), _) => ShadowTest::Offset(offset),
             ("exact", _, Some(exact)) => ShadowTest::Exact(exact),
             _ => ShadowTest::Handout,
@@ -86,20 +79,5 @@ impl Cs541 {
                 program.set(gl, "first_triangle", exact.test.first_triangle(index));
             }
         }
-    }
-
-    /// An error where the state has no shadow map.
-    pub(super) fn check_map(&self) -> Result<()> {
-        if !self.settings.switch("shadows") {
-            return Err(Error::usage(
-                "shadows=off draws no shadow map, expected shadows=on",
-            ));
-        }
-        if self.chosen_test() == "exact" {
-            return Err(Error::usage(
-                "shadow_test=exact draws no shadow map, expected shadow_test=handout or offset",
-            ));
-        }
-        Ok(())
     }
 }
