@@ -3,6 +3,7 @@
 //! | room | what lives there |
 //! |---|---|
 //! | [`scene`] | plain data in f64: meshes, objects, camera, light |
+//! | [`glsl`] | what a shader's text declares, and in which lines |
 //! | [`gl`] | what the courses gave their students: shaders, meshes, textures, readback, the call trace |
 //! | [`shadow_tests`] | the shadow tests that no handout has |
 //! | [`labs`] | what the students write: one module per handout, and the seam that all labs share |
@@ -27,6 +28,7 @@ pub mod compare;
 pub mod diagnosis;
 pub mod error;
 pub mod gl;
+pub mod glsl;
 pub mod ground_truth;
 pub mod hard;
 pub mod headless;

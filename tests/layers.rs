@@ -129,9 +129,16 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "gl",
-        imports: &["scene", "picture", "error"],
+        imports: &["glsl", "scene", "picture", "error"],
         crates: &["glow"],
         may_be_unsafe: true,
+    },
+    // Shaders as text: needs no GL.
+    Room {
+        name: "glsl",
+        imports: &[],
+        crates: &[],
+        may_be_unsafe: false,
     },
     Room {
         name: "scene",
