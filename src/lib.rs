@@ -12,6 +12,7 @@
 //! | [`compare`] | a student's picture against a reference: what is forgiven, what differs, where its shadows are |
 //! | [`mistakes`] | the classic mistakes, as edits of shaders, uniforms and calls |
 //! | [`diagnosis`] | which mistake explains a picture |
+//! | [`own_shaders`] | a student's shaders in a lab's place: what is wrong with them, where their shadows are |
 //! | [`hard`] | scenes on which shadow tests are known to break, and what must come of each test |
 //! | [`headless`] | an OpenGL 3.3 context on an EGL pbuffer, with no display |
 //! | [`report`] | speed against error: settings held against each other |
@@ -35,6 +36,7 @@ pub mod headless;
 pub mod labs;
 pub mod measure;
 pub mod mistakes;
+pub mod own_shaders;
 pub mod picture;
 pub mod progress;
 pub mod report;

@@ -55,6 +55,13 @@ const ROOMS: &[Room] = &[
         crates: &["glow", "glutin"],
         may_be_unsafe: true,
     },
+    // Holds a student's shaders against a lab's; makes no GL call of its own.
+    Room {
+        name: "own_shaders",
+        imports: &["headless", "compare", "labs", "gl", "glsl", "scene", "error"],
+        crates: &[],
+        may_be_unsafe: false,
+    },
     // Measures a lab in a context, whatever lab and context they are; makes no GL call of its own.
     Room {
         name: "report",

@@ -59,6 +59,17 @@ pub fn compile(
     }
 }
 
+/// What the driver has against a text.
+pub fn compiles(
+    gl: &glow::Context,
+    stage: Stage,
+    text: &str,
+) -> std::result::Result<(), String> {
+    let shader = compile(gl, stage, text)?;
+    unsafe { gl.delete_shader(shader) };
+    Ok(())
+}
+
 /// Links shaders as [`super::Program`] does. A program that does not link is deleted, and the driver's log returned.
 pub fn link(
     gl: &glow::Context,

@@ -8,7 +8,7 @@
 mod check;
 pub mod edits;
 pub mod inspect;
-mod mesh;
+pub mod mesh;
 mod overlay;
 mod read;
 mod shader;
@@ -17,6 +17,7 @@ mod timer;
 pub mod trace;
 mod uniform;
 
+pub use glow::Context;
 use glow::HasContext;
 
 pub use check::{check_errors, check_framebuffer};

@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use image::{DynamicImage, GrayImage, Luma, RgbImage, imageops};
+use image::{DynamicImage, RgbImage, imageops};
 use shadowlab::compare::{Difference, Forgiven, Matching, TOLERANCE, TOLERANCE_OF_JPEG};
 use shadowlab::compare::{Shadows, forgive, resized};
 use shadowlab::diagnosis::{Diagnosis, Suspects};
-use shadowlab::ground_truth::{Label, Rays};
+use shadowlab::ground_truth::Rays;
 use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout, Show};
-use shadowlab::measure::Measure;
+use shadowlab::measure::{Measure, only_known};
 use shadowlab::mistakes::{self, Edits};
 use shadowlab::scene::{reading, texture};
 use shadowlab::{Error, Result, gl, picture};
@@ -23,7 +23,8 @@ use shadowlab::{Error, Result, gl, picture};
 use super::print;
 use super::state::{Changes, Drawing, Running, State};
 use super::values::{check_light, parse_crop};
-use judged::{Judged, Read};
+pub use judged::Judged;
+use judged::Read;
 
 /// What the pictures are the same within their tolerance, differ, or could not be compared, as diff has it.
 pub const SAME: u8 = 0;
@@ -58,15 +59,16 @@ pub struct CompareCommand {
     /// Compare every picture of this folder, each in a process of its own
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "reference"])]
     batch: Option<PathBuf>,
-    /// Seconds that a picture of --batch may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "batch")]
-    limit: u64,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
 }
 
 impl CompareCommand {
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
     pub fn run(self) -> Result<ExitCode> {
         let Some((lab, pictures)) = self.what.split_last() else {
             unreachable!("clap asks for one");
@@ -101,9 +103,7 @@ impl CompareCommand {
             Some(without) => self.pair(handout, mine, without)?,
         };
         if let Some(output) = &self.output {
-            picture::write_whole(output, |file| {
-                std::io::Write::write_all(file, page::page(&judged).into_string().as_bytes())
-            })?;
+            judged.write_page(output)?;
         }
         print(&match self.json {
             true => format!("{:#}\n", judged.json()),
@@ -117,11 +117,55 @@ impl CompareCommand {
 
     /// A picture with shadows against the lab's.
     fn picture(&self, handout: &'static Handout, path: &Path) -> Result<Judged> {
+        let loaded = self.load(path)?;
+        self.judge(handout, path, loaded, None)
+    }
+
+    /// The command for a picture that a student's own shaders drew in this state.
+    pub fn of_shaders(changes: &Changes, light: usize, device: &Choice) -> Self {
+        Self {
+            what: Vec::new(),
+            changes: changes.clone(),
+            reference: None,
+            crop: None,
+            strict: false,
+            json: false,
+            output: None,
+            light,
+            batch: None,
+            device: device.clone(),
+        }
+    }
+
+    /// A picture that was drawn and not loaded, with its shadows, which are known of each light.
+    pub fn shaders(
+        &self,
+        handout: &'static Handout,
+        name: &Path,
+        picture: RgbImage,
+        shadows: Shadows,
+    ) -> Result<Judged> {
+        let drawn = Loaded {
+            picture,
+            is_jpeg: false,
+            notes: Vec::new(),
+        };
+        self.judge(handout, name, drawn, Some(shadows))
+    }
+
+    /// `shadows` are the picture's, where they need not be read from it alone.
+    fn judge(
+        &self,
+        handout: &'static Handout,
+        path: &Path,
+        loaded: Loaded,
+        shadows: Option<Shadows>,
+    ) -> Result<Judged> {
         let Loaded {
             picture: mine,
             is_jpeg,
             mut notes,
-        } = self.load(path)?;
+        } = loaded;
         let mut state = self.state(handout, &mine);
         let mut forgiven = Vec::new();
         let mut tolerance = TOLERANCE;
@@ -173,9 +217,14 @@ impl CompareCommand {
                 self.strict,
             ),
         };
-        let lit = self.draw_lit(&state)?;
-        let dark = self.draw(&state, mistakes::all_in_shadow(handout.name))?;
-        let read = self.read(&state, Shadows::between(&mine, &lit, &dark))?;
+        let read = match shadows {
+            Some(shadows) => Some(self.read_of(&state, self.light, shadows)?),
+            None => {
+                let lit = self.draw_lit(&state)?;
+                let dark = self.draw(&state, mistakes::all_in_shadow(handout.name))?;
+                self.read(&state, Shadows::between(&mine, &lit, &dark))?
+            }
+        };
         if read.is_none() {
             notes.push(format!(
                 "the shadows of {} lights cannot be told apart in one picture: no figures of them",
@@ -299,15 +348,8 @@ impl CompareCommand {
             lab: handout.name.to_owned(),
             changes: self.changes.clone(),
         };
-        let mut options = state.options();
-        let changes = &self.changes;
-        if !changes.keys.is_empty() {
-            options.extend(["--keys".to_owned(), changes.keys.clone()]);
-        }
-        if changes.time > 0.0 {
-            options.extend(["--time".to_owned(), changes.time.to_string()]);
-        }
-        if let Some([width, height]) = changes.size {
+        let mut options = state.all_options();
+        if let Some([width, height]) = self.changes.size {
             options.extend(["--size".to_owned(), format!("{width}x{height}")]);
         }
         if let Some([x, y, width, height]) = self.crop {
@@ -349,29 +391,27 @@ impl CompareCommand {
         let &[light] = lights.as_slice() else {
             return Ok(None);
         };
+        drop(running);
+        self.read_of(state, light, shadows).map(Some)
+    }
+
+    /// The shadows of a light (from 1) against the truth.
+    fn read_of(&self, state: &State, light: usize, shadows: Shadows) -> Result<Read> {
+        let running = self.start(state)?;
+        running.lab.check_light(light)?;
         let rays = Rays::new(&running.lab.now(), light - 1);
         let truth = rays.truth(running.size);
         let Shadows { visibility, known } = shadows;
-        let mut filled: GrayImage = visibility;
-        let mut judged = 0;
-        for ((pixel, known), label) in filled.pixels_mut().zip(known).zip(&truth.labels) {
-            match (label, known) {
-                (Label::NotValid, _) => (),
-                (_, true) => judged += 1,
-                // What cannot be read is not called wrong.
-                (Label::Lit, false) => *pixel = Luma([255]),
-                (Label::Shadowed, false) => *pixel = Luma([0]),
-            }
-        }
+        let (filled, judged) = only_known(visibility, &known, &truth);
         let map = running.lab.shadow_texture(light).ok().map(|map| map.scale);
         let (mut figures, mistakes) = Measure::new(&rays, &truth).measure(&filled, map.as_ref());
         // The lab's, not the picture's.
         figures.bias = None;
-        Ok(Some(Read {
+        Ok(Read {
             judged,
             figures,
             mistakes,
-        }))
+        })
     }
 }
 
