@@ -29,6 +29,7 @@ const ROOMS: &[Room] = &[
             "report",
             "diagnosis",
             "mistakes",
+            "own_shaders",
             "compare",
             "hard",
             "measure",
@@ -66,6 +67,8 @@ const ROOMS: &[Room] = &[
     Room {
         name: "report",
         imports: &[
+            "own_shaders",
+            "compare",
             "headless",
             "hard",
             "measure",

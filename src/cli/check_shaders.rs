@@ -13,7 +13,7 @@ use shadowlab::{Error, Result, gl, picture};
 
 use super::compare::{CompareCommand, DIFFERENT, Judged, SAME};
 use super::print;
-use super::state::{Changes, Drawing, State};
+use super::state::{Changes, Drawing, Running, State};
 use super::values::check_light;
 
 #[derive(Args)]
@@ -99,7 +99,12 @@ impl CheckShadersCommand {
             let mut running = state.start(&Drawing::on(&self.device), &[], false)?;
             running.draw(1, Show::Picture)?;
             let picture = gl::read_rgb(&running.context.gl, running.size);
-            Ok((picture, running.visibility(1, self.light)?))
+            let Running {
+                lab, context, size, ..
+            } = &mut running;
+            let shadows = own_shaders::try_visibility(lab.as_mut(), context, *size, self.light)?;
+            gl::check_errors(&context.gl, "drawing")?;
+            Ok((picture, shadows))
         });
         let (picture, shadows) = drawn?;
         let compare = CompareCommand::of_shaders(&self.changes, self.light, &self.device);

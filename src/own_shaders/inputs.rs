@@ -22,7 +22,9 @@ pub fn check(subject: &Subject, findings: &mut Vec<Finding>) {
             inputs.any(|input| input.location == Some(0))
         });
         let is_told = findings.iter().any(|finding| finding.path == path && finding.is_wrong());
-        if !has_position && !is_told {
+        // What is drawn without a mesh needs none.
+        let labs_position = subject.labs.inputs.iter().find(|input| input.location == Some(0));
+        if labs_position.is_some() && !has_position && !is_told {
             let text = format!(
                 "reads no position, expected {} to be declared and used",
                 labs_own_words(subject, &labs, 0)

@@ -34,7 +34,7 @@ use crate::headless::Headless;
 use crate::labs::{Handout, Show};
 use crate::{Error, Result};
 
-pub use visibility::visibility;
+pub use visibility::{try_visibility, visibility};
 
 /// What was found in a student's shader, and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -13,7 +13,10 @@ pub fn check(subject: &Subject, linked: &Interface, findings: &mut Vec<Finding>)
         .iter()
         .partition(|uniform| subject.set.contains(&uniform.name.as_str()));
     for uniform in &known {
-        if let Some(text) = wrong_type(subject, uniform) {
+        // What the lab's own shader does not use, nobody has told the type of.
+        let labs = subject.labs.uniform(&uniform.name);
+        let lab = subject.handout.name;
+        if let Some(text) = labs.and_then(|labs| wrong_type(lab, labs.kind, uniform)) {
             let place = subject.place_of(Storage::Uniform, &uniform.name);
             findings.push(Finding::wrong(place, text));
         }
@@ -37,14 +40,11 @@ fn compares(kind: &str) -> bool {
 }
 
 /// What is wrong with the type of a uniform that the lab sets.
-fn wrong_type(subject: &Subject, uniform: &Active) -> Option<String> {
-    let lab = subject.handout.name;
-    // What the lab's own shader does not use, nobody has told the type of.
-    let labs = subject.labs.uniform(&uniform.name)?;
-    let (kind, wanted, name) = (uniform.kind, labs.kind, &uniform.name);
+fn wrong_type(lab: &str, wanted: &str, uniform: &Active) -> Option<String> {
+    let Active { name, kind, .. } = uniform;
     // glUniform1i sets both.
     let both_whole = [kind, wanted].iter().all(|kind| ["int", "bool"].contains(kind));
-    if kind == wanted || both_whole {
+    if *kind == wanted || both_whole {
         return None;
     }
     Some(match (is_sampler(kind), is_sampler(wanted)) {
@@ -126,18 +126,21 @@ fn check_needed(
         .filter(|name| reads(subject, name))
         .collect();
     let mut without = Vec::new();
+    // Where they are lost on the way, so is what they are made of.
+    let are_lost = uniforms.iter().any(|name| is_missing(name) && subject.declares(Storage::Uniform, name));
     let no_map = maps.iter().any(|map| is_missing(map));
     for labs in &missing {
         let name = labs.name.as_str();
         let declared = subject.declares(Storage::Uniform, name);
         let place = subject.place_of(Storage::Uniform, name);
         if maps.contains(&name) {
-            if is_told(labs.kind) {
+            // Where its coordinates are not read either, that has been told.
+            if is_told(labs.kind) || read.is_empty() && !coordinates.is_empty() {
                 continue;
             }
             let with_it = match read.as_slice() {
-                [] => String::new(),
-                names => format!(", nor {}", names.join(" and ")),
+                names @ [_, ..] if are_lost => format!(", nor of {}", names.join(" and ")),
+                _ => String::new(),
             };
             let text = match declared {
                 true => format!(
@@ -182,4 +185,48 @@ fn reads(subject: &Subject, name: &str) -> bool {
         let mut declared = part.scan.of(&[Storage::In, Storage::Varying]);
         declared.any(|found| found.name == name && part.scan.mentions(found))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(wanted: &str, kind: &'static str) -> Option<String> {
+        let uniform = Active {
+            name: "u".to_owned(),
+            kind,
+            location: None,
+            value: 0.0,
+        };
+        wrong_type("cs541", wanted, &uniform)
+    }
+
+    #[test]
+    fn what_gl_takes_is_not_wrong() {
+        for (wanted, kind) in [
+            ("vec3", "vec3"),
+            ("bool", "int"),
+            ("int", "bool"),
+            ("sampler2D", "sampler2D"),
+            ("sampler2DShadow", "sampler2DShadow"),
+        ] {
+            assert_eq!(told(wanted, kind), None, "{kind} for {wanted}");
+        }
+    }
+
+    #[test]
+    fn what_gl_refuses_is_wrong() {
+        for (wanted, kind) in [("vec3", "vec4"), ("int", "float"), ("sampler2D", "int"), ("int", "uint")] {
+            let told = told(wanted, kind).unwrap();
+            assert!(told.contains("GL refuses"), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_comparison_is_told_from_a_look_up_both_ways() {
+        let compares = told("sampler2D", "sampler2DShadow").unwrap();
+        assert!(compares.contains("GL_TEXTURE_COMPARE_MODE is GL_NONE"), "{compares}");
+        let reads = told("sampler2DShadow", "sampler2D").unwrap();
+        assert!(reads.contains("GL_TEXTURE_COMPARE_MODE is set"), "{reads}");
+    }
 }

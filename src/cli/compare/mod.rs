@@ -137,20 +137,20 @@ impl CompareCommand {
         }
     }
 
-    /// A picture that was drawn and not loaded, with its shadows, which are known of each light.
+    /// A picture that was drawn and not loaded, with its shadows, where they are known of each light.
     pub fn shaders(
         &self,
         handout: &'static Handout,
         name: &Path,
         picture: RgbImage,
-        shadows: Shadows,
+        shadows: Option<Shadows>,
     ) -> Result<Judged> {
         let drawn = Loaded {
             picture,
             is_jpeg: false,
             notes: Vec::new(),
         };
-        self.judge(handout, name, drawn, Some(shadows))
+        self.judge(handout, name, drawn, shadows)
     }
 
     /// `shadows` are the picture's, where they need not be read from it alone.
