@@ -234,7 +234,10 @@ const WRONG: &[(&str, i32, &[&str])] = &[
     (
         "check-shaders broken cs541 --mistake no_bias",
         2,
-        &["--mistake no_bias", "check-shaders is about the lab without mistakes"],
+        &[
+            "--mistake no_bias",
+            "check-shaders is about the lab without mistakes",
+        ],
     ),
     (
         "check-shaders broken cs541 -o a.png",

@@ -59,7 +59,9 @@ const ROOMS: &[Room] = &[
     // Holds a student's shaders against a lab's; makes no GL call of its own.
     Room {
         name: "own_shaders",
-        imports: &["headless", "compare", "labs", "gl", "glsl", "scene", "error"],
+        imports: &[
+            "headless", "compare", "labs", "gl", "glsl", "scene", "error",
+        ],
         crates: &[],
         may_be_unsafe: false,
     },

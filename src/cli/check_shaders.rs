@@ -113,7 +113,10 @@ impl CheckShadersCommand {
 
     fn text(&self, handout: &Handout, checked: &Checked, judged: Option<&Judged>) -> String {
         let findings = &checked.findings;
-        let mut text: String = findings.iter().map(|finding| format!("{finding}\n")).collect();
+        let mut text: String = findings
+            .iter()
+            .map(|finding| format!("{finding}\n"))
+            .collect();
         let wrong = findings.iter().filter(|finding| finding.is_wrong()).count();
         text += &format!(
             "{} in {}: {wrong} wrong, {} to note\n",

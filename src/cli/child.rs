@@ -87,7 +87,11 @@ fn run(
     quiet: bool,
 ) -> Result<ExitCode> {
     let failed = |cause: std::io::Error| {
-        Error::input(folder, None, format!("cannot start a process for its shaders: {cause}"))
+        Error::input(
+            folder,
+            None,
+            format!("cannot start a process for its shaders: {cause}"),
+        )
     };
     let mut command = command(words)?;
     command.env(MARK, "1").stdin(Stdio::piped());
@@ -127,9 +131,7 @@ fn run(
 }
 
 /// What comes out of a pipe, read while the process writes, since pipes have an end.
-pub fn read_all(
-    mut pipe: impl std::io::Read + Send + 'static,
-) -> std::thread::JoinHandle<Vec<u8>> {
+pub fn read_all(mut pipe: impl std::io::Read + Send + 'static) -> std::thread::JoinHandle<Vec<u8>> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
         // What a killed process has not written is not missed.

@@ -172,7 +172,8 @@ impl Cli {
 
     /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
     pub fn trouble_code(&self) -> Option<u8> {
-        matches!(self.command, Command::Compare(_) | Command::CheckShaders(_)).then_some(compare::TROUBLE)
+        matches!(self.command, Command::Compare(_) | Command::CheckShaders(_))
+            .then_some(compare::TROUBLE)
     }
 }
 
@@ -237,7 +238,9 @@ impl Explain {
         self.state.changes.refuse_mistake("explain")?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
         if running.lab.has_students_test() {
-            eprintln!("note: what is explained is the lab's own shadow test, not that of the folder's shaders");
+            eprintln!(
+                "note: what is explained is the lab's own shadow test, not that of the folder's shaders"
+            );
         }
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use image::RgbImage;
+use shadowlab::compare::Shadows;
 use shadowlab::gl;
 use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
-use shadowlab::compare::Shadows;
 use shadowlab::mistakes;
 use shadowlab::own_shaders;
 use shadowlab::scene::{self, Scene};

@@ -60,11 +60,7 @@ pub fn compile(
 }
 
 /// What the driver has against a text.
-pub fn compiles(
-    gl: &glow::Context,
-    stage: Stage,
-    text: &str,
-) -> std::result::Result<(), String> {
+pub fn compiles(gl: &glow::Context, stage: Stage, text: &str) -> std::result::Result<(), String> {
     let shader = compile(gl, stage, text)?;
     unsafe { gl.delete_shader(shader) };
     Ok(())
@@ -146,7 +142,9 @@ pub fn try_link(
     });
     let linked = compiled.and_then(|()| link(gl, &shaders));
     unsafe {
-        shaders.into_iter().for_each(|shader| gl.delete_shader(shader));
+        shaders
+            .into_iter()
+            .for_each(|shader| gl.delete_shader(shader));
         let program = linked?;
         let found = interface(gl, program);
         gl.delete_program(program);
@@ -214,7 +212,10 @@ fn line_in(message: &str) -> Option<usize> {
     let place = message.strip_prefix("ERROR: ").unwrap_or(message);
     let after_string_number = place.trim_start_matches(|c: char| c.is_ascii_digit());
     let rest = after_string_number.strip_prefix([':', '('])?;
-    rest.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+    rest.split(|c: char| !c.is_ascii_digit())
+        .next()?
+        .parse()
+        .ok()
 }
 
 #[cfg(test)]

@@ -28,7 +28,9 @@ pub use read::{
     read_stencil,
 };
 pub use shader::{Made, MadeOf, Program, Shaders, programs_made, stands_for_both};
-pub use texture::{Textures, distinct, flat_depths, largest_texture, levels, solid_texture, texture};
+pub use texture::{
+    Textures, distinct, flat_depths, largest_texture, levels, solid_texture, texture,
+};
 pub use timer::{PassTime, finish, time_passes};
 pub use uniform::Value;
 

@@ -273,11 +273,17 @@ impl MadeOf {
 /// The lab's own files whose functions a student's file has.
 fn leave_out_what_is_there_twice(sources: &mut Vec<(Stage, Source)>) {
     let students = sources.iter().filter(|(_, source)| source.students);
-    let students: Vec<_> = students.map(|(stage, source)| (*stage, source.text.clone())).collect();
-    let students: Vec<_> = students.iter().map(|(stage, text)| (*stage, Scan::new(text))).collect();
+    let students: Vec<_> = students
+        .map(|(stage, source)| (*stage, source.text.clone()))
+        .collect();
+    let students: Vec<_> = students
+        .iter()
+        .map(|(stage, text)| (*stage, Scan::new(text)))
+        .collect();
     sources.retain(|(stage, source)| {
         let scan = Scan::new(&source.text);
-        let is_there = |(own_stage, own): &(Stage, Scan)| own_stage == stage && stands_for_both(own, &scan);
+        let is_there =
+            |(own_stage, own): &(Stage, Scan)| own_stage == stage && stands_for_both(own, &scan);
         source.students || !students.iter().any(is_there)
     });
 }
@@ -285,10 +291,6 @@ fn leave_out_what_is_there_twice(sources: &mut Vec<(Stage, Source)>) {
 fn compile(gl: &glow::Context, stage: Stage, source: &Source) -> Result<glow::Shader> {
     inspect::compile(gl, stage, &source.text).map_err(|log| {
         let (line, message) = inspect::first_message(&log);
-        Error::input(
-            &source.path,
-            line,
-            format!("does not compile: {message}"),
-        )
+        Error::input(&source.path, line, format!("does not compile: {message}"))
     })
 }

@@ -274,7 +274,9 @@ mod tests {
 
     #[test]
     fn a_function_is_defined_and_not_declared() {
-        let scan = Scan::new("float f(vec3 x);\nvoid main(void)\n{ f(vec3(1)); }\nfloat g() { return 1.0; }");
+        let scan = Scan::new(
+            "float f(vec3 x);\nvoid main(void)\n{ f(vec3(1)); }\nfloat g() { return 1.0; }",
+        );
         let names: Vec<_> = scan.functions.iter().map(|f| (f.name, f.line)).collect();
         assert_eq!(names, [("main", 2), ("g", 4)]);
     }
@@ -291,9 +293,26 @@ mod tests {
     #[test]
     fn text_that_is_no_glsl_ends_somewhere() {
         for text in [
-            "", "}", "{", ")", "in", "in vec3", "in ;", "layout", "layout(", "uniform vec3 a",
-            "in vec3 é;", "([{", "}}}};", "uniform = ;", "layout(location = x) in vec3 a;", "\u{feff}in vec3 a;",
-            "(){", "(", "in vec3 a,", "in vec3 a[",
+            "",
+            "}",
+            "{",
+            ")",
+            "in",
+            "in vec3",
+            "in ;",
+            "layout",
+            "layout(",
+            "uniform vec3 a",
+            "in vec3 é;",
+            "([{",
+            "}}}};",
+            "uniform = ;",
+            "layout(location = x) in vec3 a;",
+            "\u{feff}in vec3 a;",
+            "(){",
+            "(",
+            "in vec3 a,",
+            "in vec3 a[",
         ] {
             let scan = Scan::new(text);
             assert!(scan.declared.len() <= 1, "{text}: {scan:?}");

@@ -132,7 +132,10 @@ mod tests {
 
     fn words(text: &str) -> Vec<(&str, usize)> {
         let (_, tokens) = tokens(text);
-        tokens.iter().map(|token| (token.text, token.line)).collect()
+        tokens
+            .iter()
+            .map(|token| (token.text, token.line))
+            .collect()
     }
 
     #[test]

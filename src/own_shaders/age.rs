@@ -9,20 +9,76 @@ const VERSION: u32 = 330;
 
 /// Words that are gone from version 330 core: what stands in their place, and why.
 const GONE: [(&str, &str, &str); 14] = [
-    ("attribute", "in", "since 130 every stage has its in and out"),
-    ("varying", "out in the vertex shader, in in the fragment shader", "since 130 every stage has its in and out"),
-    ("texture2D", "texture", "since 130 one function reads every kind of sampler"),
-    ("textureCube", "texture", "since 130 one function reads every kind of sampler"),
-    ("texture2DProj", "textureProj", "since 130 one function reads every kind of sampler"),
-    ("shadow2D", "texture", "since 130 one function reads every kind of sampler, and a comparison is a float"),
-    ("shadow2DProj", "textureProj", "since 130 one function reads every kind of sampler, and a comparison is a float"),
-    ("gl_FragColor", "an out vec4 of one's own", "a core profile has no fixed outputs"),
-    ("gl_Vertex", "an in of one's own", "a core profile has no fixed vertex attributes"),
-    ("gl_Normal", "an in of one's own", "a core profile has no fixed vertex attributes"),
-    ("gl_MultiTexCoord0", "an in of one's own", "a core profile has no fixed vertex attributes"),
-    ("gl_ModelViewMatrix", "a uniform of one's own", "a core profile has no matrix stack"),
-    ("gl_ModelViewProjectionMatrix", "a uniform of one's own", "a core profile has no matrix stack"),
-    ("ftransform", "the product of one's own matrices", "a core profile has no matrix stack"),
+    (
+        "attribute",
+        "in",
+        "since 130 every stage has its in and out",
+    ),
+    (
+        "varying",
+        "out in the vertex shader, in in the fragment shader",
+        "since 130 every stage has its in and out",
+    ),
+    (
+        "texture2D",
+        "texture",
+        "since 130 one function reads every kind of sampler",
+    ),
+    (
+        "textureCube",
+        "texture",
+        "since 130 one function reads every kind of sampler",
+    ),
+    (
+        "texture2DProj",
+        "textureProj",
+        "since 130 one function reads every kind of sampler",
+    ),
+    (
+        "shadow2D",
+        "texture",
+        "since 130 one function reads every kind of sampler, and a comparison is a float",
+    ),
+    (
+        "shadow2DProj",
+        "textureProj",
+        "since 130 one function reads every kind of sampler, and a comparison is a float",
+    ),
+    (
+        "gl_FragColor",
+        "an out vec4 of one's own",
+        "a core profile has no fixed outputs",
+    ),
+    (
+        "gl_Vertex",
+        "an in of one's own",
+        "a core profile has no fixed vertex attributes",
+    ),
+    (
+        "gl_Normal",
+        "an in of one's own",
+        "a core profile has no fixed vertex attributes",
+    ),
+    (
+        "gl_MultiTexCoord0",
+        "an in of one's own",
+        "a core profile has no fixed vertex attributes",
+    ),
+    (
+        "gl_ModelViewMatrix",
+        "a uniform of one's own",
+        "a core profile has no matrix stack",
+    ),
+    (
+        "gl_ModelViewProjectionMatrix",
+        "a uniform of one's own",
+        "a core profile has no matrix stack",
+    ),
+    (
+        "ftransform",
+        "the product of one's own matrices",
+        "a core profile has no matrix stack",
+    ),
 ];
 
 pub fn check(file: &File, findings: &mut Vec<Finding>) {

@@ -15,6 +15,13 @@ pub fn check(gl: &gl::Context, subject: &Subject, log: &str, findings: &mut Vec<
             && let Err(log) = compile(gl, part)
         {
             let errors = inspect::messages(&log).filter(|(_, text)| !text.contains("warning"));
+            // The first of a line is the cause of the others there.
+            let mut told = Vec::new();
+            let errors = errors.filter(|(line, _)| {
+                let is_new = line.is_none() || !told.contains(line);
+                told.push(*line);
+                is_new
+            });
             for (line, message) in errors.take(MOST_MESSAGES) {
                 let text = format!("does not compile: {message}");
                 findings.push(Finding::wrong((path, line), text));

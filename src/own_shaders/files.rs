@@ -117,7 +117,10 @@ fn meant(path: &Path, own: &[(&str, &str)]) -> String {
         let declared = |name: &str| scan.declared.iter().any(|found| found.name == name);
         names.filter(|found| declared(found.name)).count()
     };
-    let nearest = own.iter().map(|(name, text)| (in_common(text), *name)).max();
+    let nearest = own
+        .iter()
+        .map(|(name, text)| (in_common(text), *name))
+        .max();
     match nearest {
         Some((names, name)) if names >= IN_COMMON => {
             format!(" (it declares {names} of the names of \"{name}\": did you mean that?)")

@@ -21,9 +21,15 @@ pub fn check(subject: &Subject, findings: &mut Vec<Finding>) {
             let mut inputs = linked.inputs.iter();
             inputs.any(|input| input.location == Some(0))
         });
-        let is_told = findings.iter().any(|finding| finding.path == path && finding.is_wrong());
+        let is_told = findings
+            .iter()
+            .any(|finding| finding.path == path && finding.is_wrong());
         // What is drawn without a mesh needs none.
-        let labs_position = subject.labs.inputs.iter().find(|input| input.location == Some(0));
+        let labs_position = subject
+            .labs
+            .inputs
+            .iter()
+            .find(|input| input.location == Some(0));
         if labs_position.is_some() && !has_position && !is_told {
             let text = format!(
                 "reads no position, expected {} to be declared and used",
@@ -69,13 +75,17 @@ fn wrong(subject: &Subject, labs: &[Known], input: &Declared) -> Option<String> 
         // The linker gives a name of which nobody said its place to whatever is free.
         (None, Some((_, known))) if !ATTRIBUTES.iter().any(|(bound, _)| *bound == name) => {
             return is_active(subject, name).then(|| {
-                format!("{name} has no location, expected layout(location = {known}) in {kind} {name}")
+                format!(
+                    "{name} has no location, expected layout(location = {known}) in {kind} {name}"
+                )
             });
         }
         (None, Some((_, known))) => *known,
         (None, None) => {
             let names: Vec<_> = labs.iter().map(|(name, _)| *name).collect();
-            let hint = hint(name, &names, |names| format!(": expected one of {}", names.join(", ")));
+            let hint = hint(name, &names, |names| {
+                format!(": expected one of {}", names.join(", "))
+            });
             return is_active(subject, name)
                 .then(|| format!("in {kind} {name}: {lab} feeds no input of that name{hint}"));
         }
@@ -113,8 +123,13 @@ fn labs_own_words(subject: &Subject, labs: &[Known], at: u32) -> String {
         let mut known = labs.iter();
         known.any(|(name, location)| *name == input.name && *location == at)
     };
-    let own = subject.labs_parts.iter().filter(|part: &&Part| part.stage == Stage::Vertex);
-    let found = own.flat_map(|part| part.scan.of(&[Storage::In])).find(at_location);
+    let own = subject
+        .labs_parts
+        .iter()
+        .filter(|part: &&Part| part.stage == Stage::Vertex);
+    let found = own
+        .flat_map(|part| part.scan.of(&[Storage::In]))
+        .find(at_location);
     match (found, labs.iter().find(|(_, location)| *location == at)) {
         (Some(input), _) => match input.location {
             Some(at) => format!("layout(location = {at}) in {} {}", input.kind, input.name),

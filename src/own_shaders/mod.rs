@@ -134,7 +134,11 @@ pub fn check(context: &Headless, handout: &'static Handout, folder: &Path) -> Re
 }
 
 /// ` (did you mean "x"?)`, or the names that are left.
-fn hint<'a>(found: &str, known: &[&'a str], otherwise: impl FnOnce(&[&'a str]) -> String) -> String {
+fn hint<'a>(
+    found: &str,
+    known: &[&'a str],
+    otherwise: impl FnOnce(&[&'a str]) -> String,
+) -> String {
     let hint = crate::error::did_you_mean(found, known.iter().copied());
     match hint.is_empty() {
         true => otherwise(known),

@@ -64,7 +64,12 @@ fn not_written(
         [] => String::new(),
         names => format!(", expected one of {}", names.join(", ")),
     });
-    let (Declared { kind, name, line, .. }, vertex) = (input, vertex_shader(subject));
+    let (
+        Declared {
+            kind, name, line, ..
+        },
+        vertex,
+    ) = (input, vertex_shader(subject));
     findings.push(match part.path {
         Some(path) => {
             let text = format!("in {kind} {name}: {vertex} has no out of that name{hint}");
@@ -82,7 +87,9 @@ fn not_written(
 fn vertex_shader(subject: &Subject) -> String {
     let mut vertex = subject.of_stage(Stage::Vertex);
     match vertex.next() {
-        Some(Part { name, path: None, .. }) => format!("{}'s own {name}", subject.handout.name),
+        Some(Part {
+            name, path: None, ..
+        }) => format!("{}'s own {name}", subject.handout.name),
         Some(Part { name, .. }) => (*name).to_owned(),
         None => "the vertex shader".to_owned(),
     }
@@ -131,7 +138,15 @@ fn unread_coordinates(
             continue;
         }
         let place = match (input, source.path) {
-            (Some((Part { path: Some(path), .. }, input)), _) => (*path, Some(input.line)),
+            (
+                Some((
+                    Part {
+                        path: Some(path), ..
+                    },
+                    input,
+                )),
+                _,
+            ) => (*path, Some(input.line)),
             (_, Some(path)) => (path, Some(output.line)),
             _ => subject.place_of(Storage::In, name),
         };
@@ -145,7 +160,10 @@ fn unread_coordinates(
 
 /// Whether the lab's own program makes a color of anything: the first passes do not.
 fn has_color(subject: &Subject) -> bool {
-    let fragment = subject.labs_parts.iter().filter(|part| part.stage == Stage::Fragment);
+    let fragment = subject
+        .labs_parts
+        .iter()
+        .filter(|part| part.stage == Stage::Fragment);
     let mut outputs = fragment.flat_map(|part| part.scan.of(&[Storage::Out]));
     outputs.any(|output| output.kind == "vec4")
 }
@@ -156,7 +174,10 @@ fn no_color(subject: &Subject, findings: &mut Vec<Finding>) {
         let outputs = part.scan.of(&[Storage::Out]);
         let outputs = outputs.filter(|output| part.scan.mentions(output)).count();
         let built_in = ["gl_FragColor", "gl_FragData"];
-        outputs > 0 || built_in.iter().any(|word| part.scan.line_of(word).is_some())
+        outputs > 0
+            || built_in
+                .iter()
+                .any(|word| part.scan.line_of(word).is_some())
     });
     if has_color(subject) && !writes {
         let text = "writes no color, expected an out vec4 that main assigns to";

@@ -22,7 +22,10 @@ pub fn check(subject: &Subject, linked: &Interface, findings: &mut Vec<Finding>)
         }
     }
     // A uniform can have a value of its own.
-    let unset: Vec<_> = unknown.into_iter().filter(|uniform| uniform.value == 0.0).collect();
+    let unset: Vec<_> = unknown
+        .into_iter()
+        .filter(|uniform| uniform.value == 0.0)
+        .collect();
     for uniform in &unset {
         let place = subject.place_of(Storage::Uniform, &uniform.name);
         findings.push(Finding::wrong(place, not_set(subject, linked, uniform)));
@@ -43,7 +46,9 @@ fn compares(kind: &str) -> bool {
 fn wrong_type(lab: &str, wanted: &str, uniform: &Active) -> Option<String> {
     let Active { name, kind, .. } = uniform;
     // glUniform1i sets both.
-    let both_whole = [kind, wanted].iter().all(|kind| ["int", "bool"].contains(kind));
+    let both_whole = [kind, wanted]
+        .iter()
+        .all(|kind| ["int", "bool"].contains(kind));
     if *kind == wanted || both_whole {
         return None;
     }
@@ -56,7 +61,9 @@ fn wrong_type(lab: &str, wanted: &str, uniform: &Active) -> Option<String> {
             "{kind} {name} reads a depth, expected {wanted}: the texture's GL_TEXTURE_COMPARE_MODE is set, and what a \
              plain look-up gives is undefined"
         ),
-        _ => format!("{kind} {name}, expected {wanted}: GL refuses what {lab} sets it to, and it stays 0"),
+        _ => format!(
+            "{kind} {name}, expected {wanted}: GL refuses what {lab} sets it to, and it stays 0"
+        ),
     })
 }
 
@@ -65,7 +72,11 @@ fn not_set(subject: &Subject, linked: &Interface, uniform: &Active) -> String {
     let Active { name, kind, .. } = uniform;
     let lab = subject.handout.name;
     let lacking = |wanted: &dyn Fn(&str) -> bool| -> Vec<&str> {
-        let own = subject.labs.uniforms.iter().filter(|labs| wanted(labs.kind));
+        let own = subject
+            .labs
+            .uniforms
+            .iter()
+            .filter(|labs| wanted(labs.kind));
         let own = own.filter(|labs| linked.uniform(&labs.name).is_none());
         own.map(|labs| labs.name.as_str()).collect()
     };
@@ -81,7 +92,9 @@ fn not_set(subject: &Subject, linked: &Interface, uniform: &Active) -> String {
         }),
     };
     if !is_sampler(kind) {
-        return format!("uniform {kind} {name}: {lab} sets none of that name, and it stays 0{hint}");
+        return format!(
+            "uniform {kind} {name}: {lab} sets none of that name, and it stays 0{hint}"
+        );
     }
     let on_unit_0 = |other: &&Active| {
         let labs = subject.labs.uniform(&other.name);
@@ -96,7 +109,9 @@ fn not_set(subject: &Subject, linked: &Interface, uniform: &Active) -> String {
             other.name
         ),
     };
-    format!("{kind} {name}: {lab} sets none of that name, and it stays on texture unit 0{beside}{hint}")
+    format!(
+        "{kind} {name}: {lab} sets none of that name, and it stays on texture unit 0{beside}{hint}"
+    )
 }
 
 /// What the handout's shadows need, and what of the lab's settings goes without effect.
@@ -127,7 +142,9 @@ fn check_needed(
         .collect();
     let mut without = Vec::new();
     // Where they are lost on the way, so is what they are made of.
-    let are_lost = uniforms.iter().any(|name| is_missing(name) && subject.declares(Storage::Uniform, name));
+    let are_lost = uniforms
+        .iter()
+        .any(|name| is_missing(name) && subject.declares(Storage::Uniform, name));
     let no_map = maps.iter().any(|map| is_missing(map));
     for labs in &missing {
         let name = labs.name.as_str();
@@ -147,7 +164,10 @@ fn check_needed(
                     "uniform {} {name}: nothing of it reaches the picture{with_it}, expected the shadow test to use it",
                     labs.kind
                 ),
-                false => format!("no uniform {} {name}, expected the shadow map to be looked up", labs.kind),
+                false => format!(
+                    "no uniform {} {name}, expected the shadow map to be looked up",
+                    labs.kind
+                ),
             };
             findings.push(Finding::wrong(place, text));
         } else if uniforms.contains(&name) {
@@ -156,7 +176,10 @@ fn check_needed(
                 continue;
             }
             let text = match declared {
-                true => format!("uniform {} {name}: nothing of it reaches the picture", labs.kind),
+                true => format!(
+                    "uniform {} {name}: nothing of it reaches the picture",
+                    labs.kind
+                ),
                 false => format!(
                     "no uniform {} {name}, expected it to be declared and used",
                     labs.kind
@@ -216,7 +239,12 @@ mod tests {
 
     #[test]
     fn what_gl_refuses_is_wrong() {
-        for (wanted, kind) in [("vec3", "vec4"), ("int", "float"), ("sampler2D", "int"), ("int", "uint")] {
+        for (wanted, kind) in [
+            ("vec3", "vec4"),
+            ("int", "float"),
+            ("sampler2D", "int"),
+            ("int", "uint"),
+        ] {
             let told = told(wanted, kind).unwrap();
             assert!(told.contains("GL refuses"), "{told}");
         }
@@ -225,7 +253,10 @@ mod tests {
     #[test]
     fn a_comparison_is_told_from_a_look_up_both_ways() {
         let compares = told("sampler2D", "sampler2DShadow").unwrap();
-        assert!(compares.contains("GL_TEXTURE_COMPARE_MODE is GL_NONE"), "{compares}");
+        assert!(
+            compares.contains("GL_TEXTURE_COMPARE_MODE is GL_NONE"),
+            "{compares}"
+        );
         let reads = told("sampler2DShadow", "sampler2D").unwrap();
         assert!(reads.contains("GL_TEXTURE_COMPARE_MODE is set"), "{reads}");
     }

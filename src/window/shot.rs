@@ -27,7 +27,10 @@ pub struct State<'a> {
 pub fn command_line(state: &State) -> String {
     let words = words(state);
     let words = ["shadowlab".to_owned()].into_iter().chain(words);
-    words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+    words
+        .map(|word| quoted(&word))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The words behind the program's name.

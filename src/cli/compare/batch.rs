@@ -101,12 +101,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-fn compare(
-    command: &CompareCommand,
-    handout: &Handout,
-    file: &Path,
-    output: &Path,
-) -> Row {
+fn compare(command: &CompareCommand, handout: &Handout, file: &Path, output: &Path) -> Row {
     let name = file
         .file_name()
         .unwrap_or_default()
@@ -133,10 +128,7 @@ fn compare(
 }
 
 /// Runs the program on itself, within limits.
-fn limited(
-    words: &[std::ffi::OsString],
-    limit: Duration,
-) -> std::result::Result<Value, String> {
+fn limited(words: &[std::ffi::OsString], limit: Duration) -> std::result::Result<Value, String> {
     let failed = |cause: std::io::Error| format!("cannot start a process for it: {cause}");
     let mut child = child::command(words)
         .map_err(|error| error.to_string())?

@@ -19,8 +19,8 @@ use shadowlab::report::{
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
 
-use crate::cli::{child, print};
 use crate::cli::state::{Changes, Drawing, State};
+use crate::cli::{child, print};
 
 #[derive(Args)]
 pub struct ReportCommand {

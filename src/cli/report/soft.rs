@@ -9,8 +9,8 @@ use shadowlab::report::{Machine, Subject};
 use shadowlab::{Error, Result};
 
 use super::{ReportCommand, raised_by_ctrl_c};
-use crate::cli::print;
 use crate::cli::child;
+use crate::cli::print;
 use crate::cli::state::{Drawing, State};
 
 /// Enough for an interval; a frame of many lights takes its time.
