@@ -857,6 +857,84 @@ fn measure_is_of_the_students_test() {
     );
 }
 
+/// Files that nobody checked: there are findings, or one line says why there are none; nothing hangs, and nothing is left
+/// behind.
+#[test]
+fn a_broken_or_hostile_file_is_told() {
+    let folder = work_folder("check_shaders_hostile");
+    let own = std::fs::read_to_string("glsl/cs541/lighting.frag").unwrap();
+    let half = &own[..own.len() / 2];
+    let head = "#version 330 core\n";
+    let texts = [
+        ("empty", String::new()),
+        ("cut off", half.to_owned()),
+        ("zeros", "\0".repeat(1000)),
+        ("a byte order mark", format!("\u{feff}{own}")),
+        ("an open comment", format!("{head}/* {own}")),
+        ("open braces", format!("{head}{}", "{".repeat(100_000))),
+        (
+            "open brackets",
+            format!("{head}void main() {{ int i = {}", "(".repeat(100_000)),
+        ),
+        (
+            "many inputs",
+            format!("{head}{}", "in vec3 a;".repeat(2_000)),
+        ),
+        (
+            "an endless line",
+            format!("{head}// {}", "\\\n".repeat(500_000)),
+        ),
+        (
+            "no end of #if",
+            format!("{head}{}", "#if 0\n".repeat(100_000)),
+        ),
+        (
+            "a memory full",
+            format!(
+                "{head}out vec4 c; void main() {{ float a[2000000000]; a[int(gl_FragCoord.x)] = 1.0; c = vec4(a[7]); }}"
+            ),
+        ),
+        ("steering", format!("{head}in vec3 \u{1b}[2J;")),
+    ];
+    std::fs::create_dir(folder.join("mine")).unwrap();
+    for (name, text) in texts {
+        std::fs::write(folder.join("mine/lighting.frag"), text).unwrap();
+        let ran = shadowlab(
+            &folder,
+            &[
+                &["check-shaders", "mine", "cs541", "--size", "32x32"][..],
+                &PATIENT,
+            ]
+            .concat(),
+        );
+        let (said, error) = (out(&ran), err(&ran));
+        match ran.status.code() {
+            Some(1) => {
+                assert!(said.starts_with("mine/lighting.frag"), "{name}: {said}");
+                assert!(!said.contains('\u{1b}'), "{name}: {said}");
+                let has_mark = name == "a byte order mark";
+                let is_told = said.contains("byte order mark, expected none");
+                assert_eq!(is_told, has_mark, "{name}: {said}");
+                assert!(said.lines().all(|line| line.len() < 3000), "{name}: {said}");
+            }
+            Some(2) => {
+                assert!(
+                    error.lines().last().unwrap().starts_with("shadowlab: mine"),
+                    "{name}: {error}"
+                );
+                assert!(said.is_empty(), "{name}: {said}");
+            }
+            code => panic!("{name}: {code:?}: {said}{error}"),
+        }
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "{name}");
+        println!(
+            "| {name} | {:?} | {} |",
+            ran.status.code(),
+            said.lines().next().unwrap_or(error.trim())
+        );
+    }
+}
+
 /// A loop that no compiler can take out, since what ends it is read from a texture. llvmpipe gives every loop up after 65,536 rounds
 /// (other drivers do not), so a round takes long enough for hours of them.
 const ENDLESS: &str = "#version 330 core

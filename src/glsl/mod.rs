@@ -4,6 +4,8 @@
 
 mod tokens;
 
+use std::collections::HashMap;
+
 pub use tokens::Version;
 use tokens::{Token, tokens};
 
@@ -13,8 +15,8 @@ pub struct Scan<'t> {
     pub version: Option<Version<'t>>,
     pub declared: Vec<Declared<'t>>,
     pub functions: Vec<Function<'t>>,
-    /// Every word of it, those of the declarations included.
-    words: Vec<Token<'t>>,
+    /// Every word of it, those of the declarations included: the first line that has it, and how often it is there.
+    words: HashMap<&'t str, (usize, usize)>,
 }
 
 /// A variable that another stage or the program fills or reads.
@@ -52,9 +54,12 @@ impl<'t> Scan<'t> {
         let (version, tokens) = tokens(text);
         let mut scan = Self {
             version,
-            words: tokens.iter().copied().filter(Token::is_word).collect(),
             ..Self::default()
         };
+        for word in tokens.iter().filter(|token| token.is_word()) {
+            let (_, count) = scan.words.entry(word.text).or_insert((word.line, 0));
+            *count += 1;
+        }
         let mut rest = tokens.as_slice();
         while !rest.is_empty() {
             rest = scan.take_statement(rest);
@@ -75,14 +80,13 @@ impl<'t> Scan<'t> {
 
     /// Whether a variable is mentioned anywhere but where it is declared.
     pub fn mentions(&self, declared: &Declared) -> bool {
-        let named = self.words.iter().filter(|word| word.is(declared.name));
-        named.count() > 1
+        let found = self.words.get(declared.name);
+        found.is_some_and(|(_, count)| *count > 1)
     }
 
     /// The first line that has the word.
     pub fn line_of(&self, word: &str) -> Option<usize> {
-        let found = self.words.iter().find(|found| found.is(word));
-        found.map(|found| found.line)
+        self.words.get(word).map(|(line, _)| *line)
     }
 
     /// Takes what is up to the next semicolon, or to the end of a function's body, and returns what is left.

@@ -82,6 +82,11 @@ const GONE: [(&str, &str, &str); 14] = [
 ];
 
 pub fn check(file: &File, findings: &mut Vec<Finding>) {
+    if file.text.starts_with('\u{feff}') {
+        let text = "begins with a byte order mark, expected none (\"UTF-8 without signature\"): drivers refuse it";
+        findings.push(Finding::note((&file.path, Some(1)), text));
+        return;
+    }
     let scan = Scan::new(&file.text);
     match scan.version {
         None => findings.push(Finding::note(
