@@ -474,6 +474,9 @@ fn the_labs_own_shaders_are_clean() {
     }
 }
 
+/// A file and its text.
+type Named = (&'static str, String);
+
 /// As students write them: nothing is wrong, and the picture is the lab's.
 #[test]
 fn what_is_right_is_not_accused() {
@@ -498,7 +501,7 @@ fn what_is_right_is_not_accused() {
     let spot = read("aueb7", "SpotLight.frag");
     assert!(spot.contains(prototypes));
     let csci = read("csci3260", "VertexShaderCode.glsl");
-    let variants: [(&str, &str, Vec<(&str, String)>); 7] = [
+    let variants: [(&str, &str, Vec<Named>); 7] = [
         ("other names between the stages", "cs541", vec![
             ("lighting.vert", renamed("lighting.vert")),
             ("lighting.frag", renamed("lighting.frag")),
@@ -631,7 +634,15 @@ fn a_file_of_another_name_is_told_which_one_it_is() {
     ];
     assert_eq!(told, expected);
 
-    std::fs::remove_file(folder.join("lighting.vert")).unwrap();
+    std::fs::write(folder.join("lighting.frag"), &lighting).unwrap();
+    let again = self::told("cs541", &folder);
+    assert!(
+        again[0].ends_with("\"lighting.frag\", which is here already)"),
+        "{again:#?}"
+    );
+    for file in ["lighting.vert", "lighting.frag"] {
+        std::fs::remove_file(folder.join(file)).unwrap();
+    }
     let refused = check("cs541", &folder).err().unwrap().to_string();
     for words in [
         "none of cs541's shaders is here",
@@ -793,7 +804,9 @@ fn the_command_tells_findings_then_the_picture_and_its_exit_code_is_diffs() {
     let page = std::fs::read_to_string(folder.join("reversed.html")).unwrap();
     assert!(page.contains("data:image/png") && page.contains("not the same"));
 
-    let misspelt = run("misspelt", &["--json"]);
+    let misspelt = run("misspelt", &["--json", "-o", "misspelt.html"]);
+    let page = std::fs::read_to_string(folder.join("misspelt.html")).unwrap();
+    assert!(page.contains("<li><code>misspelt/lighting.frag:17: sampler2D shadow_sampeler"));
     assert_eq!(misspelt.status.code(), Some(1));
     let found: serde_json::Value = serde_json::from_slice(&misspelt.stdout).unwrap();
     let finding = &found["findings"][0];
@@ -837,6 +850,20 @@ fn measure_is_of_the_students_test() {
     let bias = "point_depth = point_depth - epsilon";
     let too_much = own.replace(bias, "point_depth = point_depth - 0.02");
     assert_ne!(own, too_much);
+    let reported = |text: &str| -> u64 {
+        std::fs::write(folder.join("mine/lighting.frag"), text).unwrap();
+        let arguments =
+            "report cs541 --size 160x160 --rounds 1 --sweep map_size=1024 --glsl mine -o out";
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let ran = shadowlab(&folder, &[&arguments[..], &PATIENT].concat());
+        assert!(ran.status.success(), "{}", err(&ran));
+        let mut csv = csv::Reader::from_path(folder.join("out/report.csv")).unwrap();
+        let columns = csv.headers().unwrap().clone();
+        let row = csv.records().next().unwrap().unwrap();
+        let place = columns.iter().position(|name| name == "false_light");
+        row[place.unwrap()].parse().unwrap()
+    };
+    let reports = (reported(&own), reported(&too_much));
     let (right, too_much) = (figures(&own), figures(&too_much));
     let false_light =
         |figures: &serde_json::Value| figures["false_light"]["pixels"].as_u64().unwrap();
@@ -845,6 +872,7 @@ fn measure_is_of_the_students_test() {
         false_light(&too_much) > 3 * false_light(&right),
         "{too_much:#}"
     );
+    assert_eq!(reports, (false_light(&right), false_light(&too_much)));
     assert!(right["judged"].as_u64().unwrap() > 10_000, "{right:#}");
 
     // Without a shadow test there is nothing to read, and that is no good figure.

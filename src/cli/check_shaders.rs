@@ -76,8 +76,7 @@ impl CheckShadersCommand {
         })?;
         if let (Some(output), Some(judged)) = (&self.output, &mut judged) {
             // The page says it all in one.
-            let findings = checked.findings.iter().map(Finding::to_string);
-            judged.notes.extend(findings);
+            judged.findings = checked.findings.iter().map(Finding::to_string).collect();
             judged.write_page(output)?;
         }
         let is_clean = !checked.findings.iter().any(Finding::is_wrong);

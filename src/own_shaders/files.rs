@@ -63,9 +63,8 @@ pub fn read(handout: &Handout, folder: &Path, made: &[Made]) -> Result<Files> {
             others.push(path);
         }
     }
-    own.retain(|(name, _)| !files.has(name));
     for path in others {
-        let meant = meant(&path, &own);
+        let meant = meant(&path, &own, &files);
         files.left_out.push((path, meant));
     }
     if files.students.is_empty() {
@@ -108,7 +107,7 @@ fn is_shader(path: &Path) -> bool {
 }
 
 /// The file of the lab whose names this file has, or whose own name is near.
-fn meant(path: &Path, own: &[(&str, &str)]) -> String {
+fn meant(path: &Path, own: &[(&str, &str)], files: &Files) -> String {
     let text = reading::read_text(path, reading::TEXT_LIMIT).unwrap_or_default();
     let scan = Scan::new(&text);
     let in_common = |labs: &str| {
@@ -123,11 +122,16 @@ fn meant(path: &Path, own: &[(&str, &str)]) -> String {
         .max();
     match nearest {
         Some((names, name)) if names >= IN_COMMON => {
-            format!(" (it declares {names} of the names of \"{name}\": did you mean that?)")
+            let declares = format!("it declares {names} of the names of \"{name}\"");
+            match files.has(name) {
+                true => format!(" ({declares}, which is here already)"),
+                false => format!(" ({declares}: did you mean that?)"),
+            }
         }
         _ => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            did_you_mean(&name, own.iter().map(|(name, _)| *name))
+            let free = own.iter().filter(|(name, _)| !files.has(name));
+            did_you_mean(&name, free.map(|(name, _)| *name))
         }
     }
 }

@@ -19,6 +19,8 @@ pub struct Judged {
     pub options: Vec<String>,
     pub forgiven: Vec<Forgiven>,
     pub notes: Vec<String>,
+    /// What was found in the shaders that drew it.
+    pub findings: Vec<String>,
     /// Not of a pair, whose shading is not looked at.
     pub difference: Option<Difference>,
     pub diagnosis: Option<Diagnosis>,
