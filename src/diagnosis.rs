@@ -1,6 +1,10 @@
 //! Which mistake explains a picture: the lab makes each of them in the same state, and the pictures are held against the
 //! student's.
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use image::RgbImage;
 
 use crate::Result;
@@ -53,14 +57,18 @@ pub enum Diagnosis {
 }
 
 impl Suspects {
-    /// `draw` draws the lab's picture with edits.
-    pub fn new(lab: &str, mut draw: impl FnMut(Edits) -> Result<RgbImage>) -> Result<Self> {
-        let right = draw(Edits::default())?;
+    /// `draw` draws the lab's picture with edits, on several threads at once.
+    pub fn new(lab: &str, draw: impl Fn(Edits) -> Result<RgbImage> + Sync) -> Result<Self> {
+        let made: Vec<_> = mistakes::of_lab(lab).collect();
+        let edits: Vec<_> = std::iter::once(Edits::default())
+            .chain(made.iter().map(|(_, made)| made.edits))
+            .collect();
+        let mut pictures = all_drawn(&edits, draw)?.into_iter();
+        let right = pictures.next().expect("the right one is drawn");
         let right_range = Envelope::new(&right);
         let mut groups: Vec<Group> = Vec::new();
         let mut unseen = Vec::new();
-        for (mistake, made) in mistakes::of_lab(lab) {
-            let picture = draw(made.edits)?;
+        for ((mistake, made), picture) in made.into_iter().zip(pictures) {
             if right_range.share_outside(&picture, TOLERANCE) <= SAME {
                 unseen.push(mistake);
                 continue;
@@ -132,4 +140,32 @@ impl Suspects {
             false => Diagnosis::Explained(explanations),
         }
     }
+}
+
+/// The picture of each of the edits. Most of a picture's time is the start of its lab, on one core, so that all cores
+/// draw: plain threads, because edits and contexts belong to the thread that has them.
+fn all_drawn(
+    edits: &[Edits],
+    draw: impl Fn(Edits) -> Result<RgbImage> + Sync,
+) -> Result<Vec<RgbImage>> {
+    let drawn: Vec<_> = edits.iter().map(|_| Mutex::new(None)).collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(edits) = edits.get(i) else { break };
+            *drawn[i].lock().expect("no holder panics") = Some(draw(*edits));
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..cores.min(edits.len()) {
+            scope.spawn(work);
+        }
+    });
+    let pictures = drawn.into_iter().map(|picture| {
+        let picture = picture.into_inner().expect("no holder panics");
+        picture.expect("every picture was drawn")
+    });
+    pictures.collect()
 }
