@@ -8,7 +8,7 @@ use std::thread;
 use image::RgbImage;
 
 use crate::Result;
-use crate::compare::{Envelope, SAME, TOLERANCE, forgive, unlikeness};
+use crate::compare::{Envelope, Forgiven, SAME, TOLERANCE, forgive, unlikeness};
 use crate::mistakes::{self, Edits, Made, Mistake};
 
 /// A mistake explains a picture that is nearer to its own by this factor than to the right one.
@@ -41,10 +41,14 @@ struct Group {
 pub struct Explanation {
     /// One, or several whose pictures are alike in this state.
     pub mistakes: Vec<(&'static Mistake, &'static Made)>,
-    /// The share of the pixels that are as they are in the mistake's own picture.
+    /// The share of the pixels that are not as they are in the mistake's own picture.
     pub left: f64,
     /// How much of what differs from the right picture the mistake explains, 0…1.
     pub explained: f64,
+    /// Their picture in this state.
+    pub picture: RgbImage,
+    /// Whether it explains the picture turned upside down.
+    pub upside_down: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -54,6 +58,22 @@ pub enum Diagnosis {
     /// The best explanation first.
     Explained(Vec<Explanation>),
     NoneOfThese,
+}
+
+impl Diagnosis {
+    /// The one that leaves less unexplained: of a picture at its own size, and at the size of the window that it may have
+    /// been scaled from.
+    pub fn or_better(self, other: Self) -> Self {
+        let left = |diagnosis: &Self| match diagnosis {
+            Self::Right => 0.0,
+            Self::Explained(found) => found[0].left,
+            Self::NoneOfThese => 1.0,
+        };
+        match left(&other) < left(&self) {
+            true => other,
+            false => self,
+        }
+    }
 }
 
 impl Suspects {
@@ -103,17 +123,19 @@ impl Suspects {
 
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
     pub fn diagnose(&self, mine: &RgbImage, tolerance: u8, strict: bool) -> Diagnosis {
+        // What is left, and whether the picture was turned for it.
         let left = |picture: &RgbImage, range: &Envelope| {
             if strict {
-                return range.share_outside(mine, tolerance);
+                return (range.share_outside(mine, tolerance), false);
             }
             let found = forgive(mine.clone(), picture);
-            match &found.darkened_reference {
+            let left = match &found.darkened_reference {
                 Some(darkened) => Envelope::new(darkened).share_outside(&found.mine, tolerance),
                 None => range.share_outside(&found.mine, tolerance),
-            }
+            };
+            (left, found.forgiven.contains(&Forgiven::UpsideDown))
         };
-        let wrong = left(&self.right, &self.right_range);
+        let (wrong, _) = left(&self.right, &self.right_range);
         if wrong <= SAME {
             return Diagnosis::Right;
         }
@@ -123,8 +145,10 @@ impl Suspects {
             (1000.0 * unlikeness(mine, &group.picture)) as u64
         });
         let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
-            let left = left(&group.picture, &group.range);
+            let (left, upside_down) = left(&group.picture, &group.range);
             Explanation {
+                picture: group.picture.clone(),
+                upside_down,
                 mistakes: group.mistakes.clone(),
                 left,
                 explained: 1.0 - left / wrong,

@@ -102,6 +102,25 @@ fn a_mistake_is_named() {
     }
 }
 
+/// So dark that it is like the lab's either way up, until it is known what it shows.
+#[test]
+fn a_mistaken_picture_may_be_upside_down() {
+    let folder = work_folder("compare_turned");
+    let mine = draw(&folder, "aueb7 --mistake bias_matrix_missing", "mine.png");
+    let (_, upright) = compare(&folder, "mine.png aueb7");
+    imageops::flip_vertical(&mine)
+        .save(folder.join("turned.png"))
+        .unwrap();
+    let (_, turned) = compare(&folder, "turned.png aueb7");
+    assert!(
+        words(&turned["forgiven"]).contains("upside down"),
+        "{turned}"
+    );
+    assert!(!words(&upright["forgiven"]).contains("upside down"));
+    assert_eq!(turned["shadows"], upright["shadows"]);
+    assert_eq!(first(&turned), ["bias_matrix_missing"]);
+}
+
 #[test]
 fn the_shadows_of_a_mistaken_picture_are_measured() {
     let folder = work_folder("compare_shadows");
@@ -260,8 +279,9 @@ fn a_page_needs_no_other_file() {
         assert!(page.contains(word), "{word}");
     }
     let sources: Vec<_> = page.match_indices("src=\"").collect();
-    assert_eq!(sources.len(), 4);
-    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 4);
+    // Mine, the reference, the mistake's own, the difference, the shadows.
+    assert_eq!(sources.len(), 5);
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 5);
     assert!(!page.contains("href="));
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use image::RgbImage;
+use image::{RgbImage, imageops};
 use shadowlab::compare::{
     Difference, Forgiven, Matching, Shadows, TOLERANCE, TOLERANCE_OF_JPEG, forgive, resized,
 };
@@ -30,7 +30,7 @@ struct Held<'a> {
 
 pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -> Result<Judged> {
     let Loaded {
-        picture: given,
+        picture: mut given,
         is_jpeg,
         mut notes,
     } = load(path, command.crop)?;
@@ -56,30 +56,18 @@ pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -
         true => TOLERANCE_OF_JPEG,
         false => TOLERANCE,
     };
-    let hold = |size| {
-        hold(
-            command,
-            handout,
-            &given,
-            reference.as_ref(),
-            size,
-            tolerance,
-        )
-    };
-    let mut held = hold(size)?;
+    let hold =
+        |given: &RgbImage, size| hold(command, handout, given, reference.as_ref(), size, tolerance);
+    let mut held = hold(&given, size)?;
     // A picture of another size is one of a smaller window, or one that was scaled.
     let window = command.window(handout)?;
     let may_be_scaled = !command.strict && expected.is_none() && is_scaled(found, window);
     if may_be_scaled && !held.difference.is_same() {
-        let scaled = hold(window)?;
+        let scaled = hold(&given, window)?;
         if scaled.difference.is_same() {
             held = scaled;
         }
     }
-    if tolerance == TOLERANCE_OF_JPEG {
-        held.forgiven.insert(0, Forgiven::Jpeg);
-    }
-
     let diagnosis = if held.difference.is_same() {
         Some(Diagnosis::Right)
     } else if let Some(test) = command.changes.other_test() {
@@ -93,12 +81,25 @@ pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -
             let mine = fitted(&given, size);
             Ok::<_, Error>(lab.suspects()?.diagnose(&mine, tolerance, command.strict))
         };
-        match diagnose(reduced(size))? {
-            Diagnosis::NoneOfThese if may_be_scaled => Some(diagnose(reduced(window))?),
-            diagnosis => Some(diagnosis),
-        }
+        let diagnosis = diagnose(reduced(size))?;
+        Some(match may_be_scaled {
+            true => diagnosis.or_better(diagnose(reduced(window))?),
+            false => diagnosis,
+        })
     };
 
+    // A mistake can hide which way up a picture is, until it is known.
+    if let Some(Diagnosis::Explained(found)) = &diagnosis
+        && found[0].upside_down
+        && !held.forgiven.contains(&Forgiven::UpsideDown)
+    {
+        given = imageops::flip_vertical(&given);
+        held = hold(&given, size)?;
+        held.forgiven.push(Forgiven::UpsideDown);
+    }
+    if tolerance == TOLERANCE_OF_JPEG {
+        held.forgiven.insert(0, Forgiven::Jpeg);
+    }
     let Held {
         lab,
         right,

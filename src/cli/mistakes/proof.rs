@@ -170,24 +170,21 @@ fn prove(
         .par_iter()
         .map(|(_, picture)| {
             let again = perturbed.of(picture, tint);
+            let diagnose = |suspects: &Suspects, picture| {
+                suspects.diagnose(picture, perturbed.tolerance(), false)
+            };
             // As `compare` does it: a picture of another size may be one of the course's window, scaled.
-            let asked_again = match &resized {
-                None => drawn.diagnose(&again, perturbed.tolerance(), false),
-                Some(suspects) => match suspects.diagnose(&again, perturbed.tolerance(), false) {
-                    Diagnosis::NoneOfThese => drawn.diagnose(
-                        &compare::resized(&again, size),
-                        perturbed.tolerance(),
-                        false,
-                    ),
-                    diagnosis => diagnosis,
-                },
+            let told_again = match &resized {
+                None => diagnose(&drawn, &again),
+                Some(suspects) => diagnose(suspects, &again)
+                    .or_better(diagnose(&drawn, &compare::resized(&again, size))),
             };
             [
                 (
                     Perturbed::Not,
                     drawn.diagnose(picture, Perturbed::Not.tolerance(), false),
                 ),
-                (perturbed, asked_again),
+                (perturbed, told_again),
             ]
         })
         .collect();
