@@ -510,6 +510,7 @@ fn every_mistake_can_be_made_and_most_can_be_seen() {
         ("aueb7", "no_draw_buffer_none"),
         ("aueb7", "no_w_test"),
         ("aueb7", "too_much_bias"),
+        ("eecs487", "accumulator_not_cleared"),
         ("eecs487", "weights_wrong"),
     ];
     let folder = work_folder("mistakes");

@@ -35,6 +35,11 @@ fn the_gallery_shows_each_mistake_beside_the_right_picture() {
         assert!(page.contains(&format!("<h3>{}</h3>", mistake.name)));
         assert!(page.contains(beginning) && page.contains("mended by"));
         assert!(!made.place.is_empty());
+        // Of the first frame nobody sees it; it is told all the same.
+        if mistake.name == "accumulator_not_cleared" {
+            assert_eq!(page.matches("No picture of this lab shows it").count(), 1);
+            continue;
+        }
         let picture = |what| {
             let path = folder.join(format!("gallery/eecs487/{}-{what}.png", mistake.name));
             image::open(path).unwrap().into_rgb8()
@@ -52,7 +57,7 @@ fn the_gallery_shows_each_mistake_beside_the_right_picture() {
     let view = "shadowlab view eecs487 ";
     assert_eq!(
         page.matches(view).count(),
-        mistakes::of_lab("eecs487").count()
+        mistakes::of_lab("eecs487").count() - 1
     );
 }
 
