@@ -106,8 +106,9 @@ impl CheckShadersCommand {
             Ok((picture, shadows))
         });
         let (picture, shadows) = drawn?;
-        let compare = CompareCommand::of_shaders(&self.changes, self.light, &self.device);
-        compare.shaders(handout, &self.folder, picture, shadows)
+        let compare = CompareCommand::of_drawn(&self.changes, &self.device);
+        let shadows = shadows.map(|shadows| (self.light, shadows));
+        compare.drawn(handout, &self.folder, picture, shadows)
     }
 
     fn text(&self, handout: &Handout, checked: &Checked, judged: Option<&Judged>) -> String {
