@@ -19,12 +19,15 @@ const MARK: &str = "SHADOWLAB_CHILD";
 /// The size at which shaders are tried, in pixels.
 const SMALL: &str = "64x64";
 
-/// This program with other words behind it, within the limit on memory.
+/// This program with other words behind it, within the limit on memory; where there is a lower one already, within that.
 pub fn command(words: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<Command> {
     let program = std::env::current_exe().map_err(|cause| Error::reading("shadowlab", cause))?;
     let mut command = Command::new("sh");
     command
-        .args(["-c", &format!("ulimit -v {MOST_KIB}; exec \"$0\" \"$@\"")])
+        .args([
+            "-c",
+            &format!("ulimit -v {MOST_KIB} 2>/dev/null; exec \"$0\" \"$@\""),
+        ])
         .arg(program)
         .args(words)
         .stdin(Stdio::null());
