@@ -100,7 +100,7 @@ const PAIRS: &[Pair] = &[
     Pair {
         handouts: "cmsc23700/lighting.vert",
         exact: "cmsc23700/lighting_lcs.vert",
-        words: &["Coord", "TextureMatrix", "ModelMatrix"],
+        words: &["Coord", "TextureMatrix", "ModelMatrix", "instance"],
         edit: ("normalMatrix * ", ""),
     },
     Pair {

@@ -190,8 +190,9 @@ fn a_wrong_light_buffer_scores_badly() {
         spoil(&mut spoilt);
         let score = score(&scene, &rays, &truth, &spoilt);
         println!("{name}: {score:?}");
-        [score.false_shadow, score.false_light]
+        score
     };
+    let mistakes = |score: Score| [score.false_shadow, score.false_light];
     let as_it_is = |scene: &Scene| scene.clone();
     let turned = |scene: &Scene| {
         let mut scene = scene.clone();
@@ -212,22 +213,27 @@ fn a_wrong_light_buffer_scores_badly() {
     };
     for name in ["solids, spot", "solids, point", "solids, sun"] {
         // The controls of the controls.
-        assert_eq!(wrong(name, &as_it_is, &|_| ()), [0, 0], "{name}");
-        // The side that faces the light in place of the one that faces away.
-        let [shadow, _] = wrong(name, &turned, &|_| ());
-        assert!(shadow > 1000, "{name}: {shadow}");
+        let right = wrong(name, &as_it_is, &|_| ());
+        let tests = right.tests;
+        assert_eq!(mistakes(right), [0, 0], "{name}");
+        // The side that faces the light in place of the one that faces away: it casts the same, and onto itself.
+        let inside_out = wrong(name, &turned, &|_| ());
+        assert!(
+            inside_out.tests > 2.0 * tests,
+            "{name}: {tests} {inside_out:?}"
+        );
         // The lists of other cells.
-        let [_, light] = wrong(name, &as_it_is, &|buffer| {
+        let [_, light] = mistakes(wrong(name, &as_it_is, &|buffer| {
             let lists = lists(buffer);
             buffer.nodes[lists].rotate_left(1000);
-        });
+        }));
         assert!(light > 20, "{name}: {light}");
     }
     // A tolerance on the wrong side: neighbours on an open surface shadow each other.
     for name in ["winding, spot", "winding, point"] {
-        let [shadow, _] = wrong(name, &as_it_is, &move_planes(1.01));
+        let [shadow, _] = mistakes(wrong(name, &as_it_is, &move_planes(1.01)));
         assert!(shadow > 20, "{name}: {shadow}");
-        let [_, light] = wrong(name, &as_it_is, &move_planes(0.9));
+        let [_, light] = mistakes(wrong(name, &as_it_is, &move_planes(0.9)));
         assert!(light > 20, "{name}: {light}");
     }
 }
