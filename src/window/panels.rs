@@ -3,6 +3,7 @@
 use image::RgbaImage;
 
 use super::keys;
+use super::stage::Stage;
 use super::text::{Ground, Letters, wrap};
 use crate::Result;
 use crate::gl::{Area, Overlay};
@@ -53,11 +54,10 @@ impl Panels {
         &mut self,
         gl: &glow::Context,
         shown: &Shown,
-        handout: &Handout,
-        lab: &dyn Lab,
-        size: [u32; 2],
+        stage: &Stage,
         scale: f64,
     ) {
+        let (handout, lab, size) = (stage.handout, stage.lab.as_ref(), stage.size());
         let letters = Letters::new(scale);
         let columns = letters.columns(size[0]);
         let mut blocks = Vec::new();
