@@ -107,23 +107,22 @@ impl Viewer {
     fn fit(&mut self) {
         self.fit_at = None;
         let [width, height] = self.size;
-        self.stage.resize([width - self.panel_width(), height]);
+        // A window without room for both has the panel over its picture.
+        let picture = width.saturating_sub(self.panel_width()).max(1);
+        self.stage.resize([picture, height]);
         self.canvas.window.request_redraw();
     }
 
-    /// In pixels; never so much that the picture has none.
+    /// In pixels.
     fn panel_width(&self) -> u32 {
         let panel = self.panel.as_ref().filter(|panel| panel.is_open());
-        let width = panel.map_or(0, |panel| panel.width(self.canvas.window.scale_factor()));
-        width.min(self.size[0] / 2)
+        panel.map_or(0, |panel| panel.width(self.canvas.window.scale_factor()))
     }
 
     /// Asks for a window that has room for the panel, or no longer has it: the picture keeps its size.
     pub(super) fn widen(&mut self) {
         let [width, height] = self.stage.size();
-        let panel = self.panel.as_ref().filter(|panel| panel.is_open());
-        let panel = panel.map_or(0, |panel| panel.width(self.canvas.window.scale_factor()));
-        let wanted = PhysicalSize::new(width + panel, height);
+        let wanted = PhysicalSize::new(width + self.panel_width(), height);
         match self.canvas.window.request_inner_size(wanted) {
             Some(size) => self.resize(size.into()),
             None => self.fit_at = Some(Instant::now() + FIT),
@@ -248,7 +247,11 @@ impl Viewer {
         let pixels = gl::read_rgb(&self.canvas.gl, self.stage.size());
         let name = shot::free_name(self.stage.handout.name);
         picture::write_rgb(&name, &pixels, &picture::notes(&self.canvas.renderer))?;
-        tell(&format!("{}\n{}", name.display(), self.stage.command_line()));
+        tell(&format!(
+            "{}\n{}",
+            name.display(),
+            self.stage.command_line()
+        ));
         Ok(())
     }
 }

@@ -41,7 +41,9 @@ impl Mouse {
             self.pressed_at = self.position.filter(|_| button == MouseButton::Left);
             return false;
         }
-        self.pressed_at.take().is_some_and(|at| Some(at) == self.position)
+        self.pressed_at
+            .take()
+            .is_some_and(|at| Some(at) == self.position)
     }
 
     /// What the mouse has moved since, with a button held.

@@ -50,13 +50,7 @@ impl Panels {
     }
 
     /// Draws over the picture that the lab has just drawn.
-    pub fn draw(
-        &mut self,
-        gl: &glow::Context,
-        shown: &Shown,
-        stage: &Stage,
-        scale: f64,
-    ) {
+    pub fn draw(&mut self, gl: &glow::Context, shown: &Shown, stage: &Stage, scale: f64) {
         let (handout, lab, size) = (stage.handout, stage.lab.as_ref(), stage.size());
         let letters = Letters::new(scale);
         let columns = letters.columns(size[0]);

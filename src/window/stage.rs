@@ -78,11 +78,7 @@ impl Stage {
         if !self.size.contains(&0) {
             self.lab.resize(self.size);
         }
-        (self.prepare)(
-            self.lab.as_mut(),
-            &self.inputs,
-            self.time - self.waited,
-        )
+        (self.prepare)(self.lab.as_mut(), &self.inputs, self.time - self.waited)
     }
 
     /// The size of the picture, in pixels.

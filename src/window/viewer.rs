@@ -74,7 +74,9 @@ impl Viewer {
         // The window may have closed since: then nobody needs to know.
         let saved = move || drop(saved.send_event(Wake::Saved));
         let folder = stage.glsl.as_deref();
-        let watcher = folder.map(|folder| watch::watch(folder, saved)).transpose()?;
+        let watcher = folder
+            .map(|folder| watch::watch(folder, saved))
+            .transpose()?;
         tell(&format!(
             "{} in a window, {}, {}; the key ? shows the keys",
             stage.handout.name, canvas.renderer, canvas.api
@@ -107,7 +109,11 @@ impl Viewer {
         if let WindowEvent::CursorMoved { position, .. } = event {
             self.point(position);
         }
-        if let WindowEvent::KeyboardInput { event, is_synthetic: false, .. } = &event
+        if let WindowEvent::KeyboardInput {
+            event,
+            is_synthetic: false,
+            ..
+        } = &event
             && let Some(next) = self.press_own(event)?
         {
             return Ok(next);
@@ -127,7 +133,11 @@ impl Viewer {
                 self.hidden = hidden;
                 self.canvas.window.request_redraw();
             }
-            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
+            WindowEvent::KeyboardInput {
+                event,
+                is_synthetic: false,
+                ..
+            } => {
                 return Ok(self.press(&event));
             }
             WindowEvent::MouseInput { state, button, .. } => {

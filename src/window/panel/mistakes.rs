@@ -1,17 +1,21 @@
 //! The classic mistakes that the lab can make, one at a time. The lab is started again with it, in the state that it has.
 
-use egui::{Label, RichText, ScrollArea, Sense, Ui};
+use egui::{EventFilter, FontId, Key, Label, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 
 use super::{Facts, Wish, look};
 use crate::mistakes::{self, Made, Mistake};
 
 /// Room for what a mistake is, at the bottom, in points.
 const TOLD: f32 = 190.0;
+/// Of a row of the list.
+const ROW: f32 = 19.0;
+/// What stands before the mistakes.
+const NONE: &str = "none: as the handout has it";
 
 #[derive(Default)]
 pub struct Tab {
-    /// The one that the pointer or the keyboard was last at.
-    at: Option<&'static str>,
+    /// The row that the pointer or the keyboard was last at; 0 is none.
+    at: usize,
 }
 
 impl Tab {
@@ -21,41 +25,83 @@ impl Tab {
             return;
         }
         let of_lab: Vec<_> = mistakes::of_lab(facts.handout.name).collect();
+        let is_made = |(mistake, _): &(&Mistake, &Made)| {
+            facts.mistake.is_some_and(|made| made.name == mistake.name)
+        };
+        let made = of_lab.iter().position(is_made).map_or(0, |row| row + 1);
         let height = ui.available_height() - TOLD;
-        ScrollArea::vertical()
+        let chosen = ScrollArea::vertical()
             .max_height(height)
             .auto_shrink([false, false])
-            .show(ui, |ui| {
-                let made = facts.mistake.map(|mistake| mistake.name);
-                let none = ui.selectable_label(made.is_none(), "none: as the handout has it");
-                if none.has_focus() || none.hovered() {
-                    self.at = None;
-                }
-                if none.clicked() && made.is_some() {
-                    wishes.push(Wish::Mistake(None));
-                }
-                for (mistake, _) in &of_lab {
-                    let name = RichText::new(mistake.name).monospace();
-                    let response = ui.selectable_label(made == Some(mistake.name), name);
-                    if response.has_focus() || response.hovered() {
-                        self.at = Some(mistake.name);
-                    }
-                    if response.gained_focus() {
-                        response.scroll_to_me(None);
-                    }
-                    if response.clicked() && made != Some(mistake.name) {
-                        wishes.push(Wish::Mistake(Some(mistake)));
-                    }
-                }
-            });
+            .show(ui, |ui| self.list(ui, &of_lab, made))
+            .inner;
+        if let Some(row) = chosen.filter(|row| *row != made) {
+            let mistake = row.checked_sub(1).map(|row| of_lab[row].0);
+            wishes.push(Wish::Mistake(mistake));
+        }
         ui.separator();
-        let at = self.at.or(facts.mistake.map(|mistake| mistake.name));
-        match of_lab.iter().find(|(mistake, _)| Some(mistake.name) == at) {
+        match self.at.checked_sub(1).and_then(|row| of_lab.get(row)) {
             Some((mistake, made)) => tell(ui, mistake, made),
             None => {
                 ui.weak("Enter, Space or a click makes a mistake: the lab starts again with it.");
             }
         }
+    }
+
+    /// One control for the keyboard: up and down move in it, Enter and Space choose. The row that was chosen now.
+    fn list(&mut self, ui: &mut Ui, of_lab: &[(&Mistake, &Made)], made: usize) -> Option<usize> {
+        let names = of_lab.iter().map(|(mistake, _)| mistake.name);
+        let names: Vec<&str> = std::iter::once(NONE).chain(names).collect();
+        let size = vec2(ui.available_width(), ROW * names.len() as f32);
+        let (area, response) = ui.allocate_exact_size(size, Sense::click());
+        if let Some(pointer) = response.hover_pos() {
+            self.at = ((pointer.y - area.top()) / ROW) as usize;
+        }
+        let mut chosen = response.clicked().then_some(self.at);
+        if response.has_focus() {
+            let filter = EventFilter {
+                vertical_arrows: true,
+                ..EventFilter::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+            let (steps, enter) = ui.input(|input| {
+                let presses = |key| input.num_presses(key) as i32;
+                let steps = presses(Key::ArrowDown) - presses(Key::ArrowUp);
+                (steps, presses(Key::Enter) + presses(Key::Space) > 0)
+            });
+            self.at = self.at.saturating_add_signed(steps as isize);
+            if enter {
+                chosen = Some(self.at);
+            }
+        }
+        self.at = self.at.min(names.len() - 1);
+
+        let row = |at: usize| {
+            let corner = pos2(area.left(), area.top() + ROW * at as f32);
+            Rect::from_min_size(corner, vec2(area.width(), ROW))
+        };
+        let painter = ui.painter();
+        for (at, name) in names.iter().enumerate() {
+            if at == made {
+                painter.rect_filled(row(at), look::ROUND, look::CHOSEN);
+            }
+            if at == self.at {
+                let ring = look::focus_ring(response.has_focus());
+                let inside = egui::StrokeKind::Inside;
+                painter.rect_stroke(row(at), look::ROUND, ring, inside);
+            }
+            let place = row(at).left_center() + vec2(6.0, 0.0);
+            let font = if at == 0 {
+                FontId::proportional(12.5)
+            } else {
+                look::digits()
+            };
+            painter.text(place, egui::Align2::LEFT_CENTER, name, font, look::INK);
+        }
+        if response.has_focus() {
+            ui.scroll_to_rect(row(self.at), None);
+        }
+        chosen
     }
 }
 
@@ -68,8 +114,7 @@ fn tell(ui: &mut Ui, mistake: &Mistake, made: &Made) {
             ("in the handout", made.place),
         ] {
             ui.colored_label(look::CHANGED, RichText::new(what).size(11.0));
-            let text = Label::new(RichText::new(text).size(12.0));
-            ui.add(text.sense(Sense::hover()));
+            ui.add(Label::new(RichText::new(text).size(12.0)).selectable(false));
         }
     });
 }

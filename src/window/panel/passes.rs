@@ -42,7 +42,10 @@ impl Tab {
             pass.was_drawn = false;
         }
         for time in times {
-            let known = self.passes.iter_mut().position(|pass| pass.name == time.name);
+            let known = self
+                .passes
+                .iter_mut()
+                .position(|pass| pass.name == time.name);
             let at = known.unwrap_or_else(|| {
                 self.passes.push(Pass {
                     name: time.name.clone(),
@@ -61,10 +64,16 @@ impl Tab {
     }
 
     pub fn show(&self, ui: &mut Ui) {
+        // A scene at rest is drawn for the sake of its times.
+        ui.ctx().request_repaint();
         let drawn = || self.passes.iter().filter(|pass| pass.was_drawn);
         let slowest = self.passes.iter().map(Pass::median).fold(0.0, f64::max);
         for pass in &self.passes {
-            let color = if pass.was_drawn { look::INK } else { look::RAISED.gamma_multiply(2.0) };
+            let color = if pass.was_drawn {
+                look::INK
+            } else {
+                look::RAISED.gamma_multiply(2.0)
+            };
             let name = RichText::new(&pass.name).color(color);
             ui.add(Label::new(name).sense(Sense::hover()));
             ui.horizontal(|ui| {

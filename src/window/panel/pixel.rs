@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use egui::{Color32, Key, Painter, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::texels::Texels;
-use super::{Facts, look};
+use super::{Facts, look, rows};
 use crate::labs::{Explanation, Probe};
 use crate::window::stage::Stage;
 
@@ -94,17 +94,20 @@ impl Tab {
         ui.separator();
         ScrollArea::vertical()
             .auto_shrink([false, false])
-            .show(ui, |ui| match &asked.told {
-                Err(refused) => {
-                    ui.colored_label(look::WRONG, refused);
-                }
-                Ok((explanation, texels)) => {
-                    verdict(ui, explanation);
-                    if let Some(texels) = texels {
-                        texels.show(ui);
+            .show(ui, |ui| {
+                rows::scroll(ui);
+                match &asked.told {
+                    Err(refused) => {
+                        ui.colored_label(look::WRONG, refused);
                     }
-                    steps(ui, explanation);
-                    matrices(ui, explanation);
+                    Ok((explanation, texels)) => {
+                        verdict(ui, explanation);
+                        if let Some(texels) = texels {
+                            texels.show(ui);
+                        }
+                        steps(ui, explanation);
+                        matrices(ui, explanation);
+                    }
                 }
             });
     }
@@ -165,7 +168,10 @@ fn explain(
         ));
     }
     let told = |error: crate::Error| error.to_string();
-    let explanation = stage.lab.explain(gl, Probe::Pixel(place), light).map_err(told)?;
+    let explanation = stage
+        .lab
+        .explain(gl, Probe::Pixel(place), light)
+        .map_err(told)?;
     let map = stage.lab.shadow_texture(light).ok();
     let texels = match (&explanation.look_up, map) {
         (Some(look_up), Some(map)) => Some(Texels::read(gl, &map, look_up).map_err(told)?),
@@ -210,16 +216,33 @@ fn steps(ui: &mut Ui, explanation: &Explanation) {
     }
     ui.separator();
     let digits = |text: String| RichText::new(text).font(look::digits());
-    ui.weak(digits(format!("{:>18}{:>16}{:>9}{:>9}", "GPU, f32", "in f64", "apart", "bound")));
+    ui.weak(digits(format!(
+        "{:>18}{:>16}{:>9}{:>9}",
+        "GPU, f32", "in f64", "apart", "bound"
+    )));
     for step in &explanation.steps {
         ui.label(RichText::new(step.name).size(12.0));
         for (i, component) in step.components.iter().enumerate() {
             let (gpu, exact, bound) = (step.gpu[i], step.exact[i], step.bound[i]);
             let apart = (gpu - exact).abs();
-            let text = format!("{component:>4}{gpu:14.7}{exact:16.9}{apart:9.0e}{bound:9.0e}");
-            let color = if apart <= bound { look::INK } else { look::WRONG };
+            let [apart_text, bound_text] = [apart, bound].map(short);
+            let text =
+                format!("{component:>4}{gpu:14.7}{exact:16.9}{apart_text:>9}{bound_text:>9}");
+            let color = if apart <= bound {
+                look::INK
+            } else {
+                look::WRONG
+            };
             ui.label(digits(text).color(color));
         }
+    }
+}
+
+/// A small number to one digit.
+fn short(number: f64) -> String {
+    match number {
+        0.0 => "0".to_owned(),
+        number => format!("{number:.0e}"),
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Tab and the arrows up and down go from row to row, as egui has it; the arrows left and right change a row.
 
+use egui::style::ScrollAnimation;
 use egui::{EventFilter, FontId, Id, Key, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
 use super::look;
@@ -34,7 +35,9 @@ pub fn choice(
     let color = look::INK;
     let texts: Vec<_> = values
         .iter()
-        .map(|value| ui.fonts_mut(|fonts| fonts.layout_no_wrap((*value).to_owned(), font.clone(), color)))
+        .map(|value| {
+            ui.fonts_mut(|fonts| fonts.layout_no_wrap((*value).to_owned(), font.clone(), color))
+        })
         .collect();
 
     // Where each value stands, line by line.
@@ -78,7 +81,8 @@ pub fn choice(
     }
     let ring = look::focus_ring(response.has_focus());
     let outside = egui::StrokeKind::Outside;
-    ui.painter().rect_stroke(area.expand(1.0), look::ROUND, ring, outside);
+    ui.painter()
+        .rect_stroke(area.expand(1.0), look::ROUND, ring, outside);
 
     let steps = steps(ui, &response);
     let stepped = (chosen as i32 + steps).clamp(0, values.len() as i32 - 1) as usize;
@@ -107,5 +111,16 @@ pub fn light(ui: &mut Ui, light: &mut usize, lights: usize) {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     if let (Some(chosen), _) = choice(ui, "light", &names, *light - 1, None) {
         *light = chosen + 1;
+    }
+    ui.add_space(6.0);
+}
+
+/// Home and End scroll what does not fit, up and down.
+pub fn scroll(ui: &Ui) {
+    let pages =
+        ui.input(|input| input.num_presses(Key::Home) as f32 - input.num_presses(Key::End) as f32);
+    if pages != 0.0 {
+        let page = 0.5 * ui.clip_rect().height();
+        ui.scroll_with_delta_animation(vec2(0.0, pages * page), ScrollAnimation::none());
     }
 }

@@ -47,7 +47,13 @@ fn row(ui: &mut Ui, setting: &Setting, settings: &Settings, wishes: &mut Vec<Wis
         let color = if is_changed { look::CHANGED } else { look::INK };
         let font = look::digits();
         let (place, name) = ui.allocate_exact_size(vec2(NAMES, look::ROW), Sense::hover());
-        ui.painter().text(place.left_center(), Align2::LEFT_CENTER, setting.name, font, color);
+        ui.painter().text(
+            place.left_center(),
+            Align2::LEFT_CENTER,
+            setting.name,
+            font,
+            color,
+        );
         let control = ui.vertical(|ui| {
             // As wide with the button behind it as without.
             ui.set_width(ui.available_width() - look::ROW - ui.spacing().item_spacing.x);
@@ -55,7 +61,10 @@ fn row(ui: &mut Ui, setting: &Setting, settings: &Settings, wishes: &mut Vec<Wis
         });
         if is_changed {
             let button = ui.add(Button::new("↺").frame(false));
-            if button.on_hover_text(format!("back to the handout's {default}")).clicked() {
+            if button
+                .on_hover_text(format!("back to the handout's {default}"))
+                .clicked()
+            {
                 set(default);
             }
         }

@@ -63,7 +63,11 @@ impl Tab {
             self.answer = Some(answer);
             self.marks = None;
         }
-        self.refused = stage.lab.check_light(light).err().map(|error| error.to_string());
+        self.refused = stage
+            .lab
+            .check_light(light)
+            .err()
+            .map(|error| error.to_string());
         let now = (stage.changes(), light);
         let answered = self.answer.as_ref();
         self.is_of_picture = answered.is_some_and(|answer| (answer.changes, answer.light) == now);
@@ -89,7 +93,9 @@ impl Tab {
         }
         let marks = self.marks.get_or_insert_with(|| {
             let image = marks(&answer.mistakes);
-            painter.ctx().load_texture("mistakes", image, TextureOptions::NEAREST)
+            painter
+                .ctx()
+                .load_texture("mistakes", image, TextureOptions::NEAREST)
         });
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let strength = if self.is_of_picture { 1.0 } else { OLD };
@@ -165,29 +171,41 @@ fn colour(Rgb([red, green, blue]): Rgb<u8>) -> Color32 {
 fn figures(ui: &mut Ui, figures: &Figures) {
     let digits = |text: String| RichText::new(text).font(look::digits());
     ui.add_space(4.0);
-    egui::Grid::new("figures").spacing([10.0, 4.0]).show(ui, |ui| {
-        for head in ["", "pixels", "share", "edge1", "edgeT", "interior"] {
-            ui.weak(RichText::new(head).size(11.0));
-        }
-        ui.end_row();
-        let mut row = |name, color, wrong: &Wrong, of: usize| {
-            ui.horizontal(|ui| {
-                let side = egui::vec2(10.0, 10.0);
-                let (square, _) = ui.allocate_exact_size(side, egui::Sense::hover());
-                ui.painter().rect_filled(square, 2.0, colour(color));
-                ui.label(name);
-            });
-            let share = 100.0 * wrong.total() as f64 / of.max(1) as f64;
-            ui.label(digits(wrong.total().to_string()));
-            ui.label(digits(format!("{share:.3}%")));
-            for count in [wrong.edge1, wrong.edge_t, wrong.interior] {
-                ui.label(digits(count.to_string()));
+    egui::Grid::new("figures")
+        .spacing([10.0, 4.0])
+        .show(ui, |ui| {
+            for head in ["", "pixels", "share", "edge1", "edgeT", "interior"] {
+                ui.weak(RichText::new(head).size(11.0));
             }
             ui.end_row();
-        };
-        row("false shadow", FALSE_SHADOW, &figures.false_shadow, figures.lit);
-        row("false light", FALSE_LIGHT, &figures.false_light, figures.shadowed);
-    });
+            let mut row = |name, color, wrong: &Wrong, of: usize| {
+                ui.horizontal(|ui| {
+                    let side = egui::vec2(10.0, 10.0);
+                    let (square, _) = ui.allocate_exact_size(side, egui::Sense::hover());
+                    ui.painter().rect_filled(square, 2.0, colour(color));
+                    ui.label(name);
+                });
+                let share = 100.0 * wrong.total() as f64 / of.max(1) as f64;
+                ui.label(digits(wrong.total().to_string()));
+                ui.label(digits(format!("{share:.3}%")));
+                for count in [wrong.edge1, wrong.edge_t, wrong.interior] {
+                    ui.label(digits(count.to_string()));
+                }
+                ui.end_row();
+            };
+            row(
+                "false shadow",
+                FALSE_SHADOW,
+                &figures.false_shadow,
+                figures.lit,
+            );
+            row(
+                "false light",
+                FALSE_LIGHT,
+                &figures.false_light,
+                figures.shadowed,
+            );
+        });
     ui.add_space(4.0);
     let ambiguous = figures.false_shadow.ambiguous + figures.false_light.ambiguous;
     ui.label(format!(

@@ -10,7 +10,7 @@ use crate::{Result, gl};
 /// Texels along a side; odd, so that one is in the middle.
 const SIDE: i64 = 7;
 /// Of a texel, in points.
-const CELL: f32 = 46.0;
+const CELL: f32 = 36.0;
 
 const LIT: Color32 = Color32::from_rgb(205, 196, 160);
 const DARK: Color32 = Color32::from_rgb(58, 62, 78);
@@ -43,7 +43,8 @@ impl Texels {
         };
         let at = |x: i64, y: i64| {
             let (column, row) = (x - from[0], y - from[1]);
-            let is_read = (0..count[0].into()).contains(&column) && (0..count[1].into()).contains(&row);
+            let is_read =
+                (0..count[0].into()).contains(&column) && (0..count[1].into()).contains(&row);
             is_read.then(|| f64::from(read[(row * i64::from(count[0]) + column) as usize]))
         };
         let all = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
@@ -81,17 +82,23 @@ impl Texels {
             };
             painter.rect_filled(cell, 0.0, fill);
             let Some(stored) = stored else { continue };
-            let ink = if fill == LIT { Color32::BLACK } else { look::INK };
+            let ink = if fill == LIT {
+                Color32::BLACK
+            } else {
+                look::INK
+            };
             let number = difference((stored - self.compared) / unit);
-            let font = FontId::monospace(11.0);
+            let font = FontId::monospace(10.0);
             painter.text(cell.center(), Align2::CENTER_CENTER, number, font, ink);
         }
         self.draw_place(ui, area);
-        let told = format!("stored less compared, in {unit:.0e} of depth; below zero is in shadow. ✚ looks up");
+        let told = format!(
+            "stored less compared, in {unit} of depth: below zero in shadow. The cross is the look-up."
+        );
         ui.weak(RichText::new(told).size(12.0));
     }
 
-    /// The cross where the look-up is, and the four texels that GL_LINEAR would mix.
+    /// The cross where the look-up is, and the texel that it falls into.
     fn draw_place(&self, ui: &Ui, area: Rect) {
         let painter = ui.painter_at(area);
         let at = self.place - DVec2::new(self.first[0] as f64, self.first[1] as f64);
@@ -113,7 +120,9 @@ impl Texels {
     /// The power of ten in which the median difference has one digit before its point.
     fn unit(&self) -> f64 {
         let stored = self.stored.iter().flatten();
-        let mut apart: Vec<f64> = stored.map(|stored| (stored - self.compared).abs()).collect();
+        let mut apart: Vec<f64> = stored
+            .map(|stored| (stored - self.compared).abs())
+            .collect();
         if apart.is_empty() {
             return 1.0;
         }

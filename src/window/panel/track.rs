@@ -21,7 +21,6 @@ pub struct Track {
     default: f64,
     least: f64,
     most: f64,
-    whole: bool,
     along: Along,
     step: f64,
 }
@@ -32,7 +31,13 @@ const SMALLEST_MAP: f64 = 16.0;
 impl Track {
     /// None where the setting is no number.
     pub fn new(kind: &Kind) -> Option<Self> {
-        let Kind::Number { default, least, most, whole } = *kind else {
+        let Kind::Number {
+            default,
+            least,
+            most,
+            whole,
+        } = *kind
+        else {
             return None;
         };
         let range = most - least;
@@ -45,8 +50,18 @@ impl Track {
         };
         // A hundredth of the range, and of the default a tenth, as 1, 2 or 5 of a power of ten.
         let fine = if default > 0.0 { default / 10.0 } else { range };
-        let step = if whole { 1.0 } else { round_step(fine.min(range / 100.0)) };
-        Some(Self { default, least, most, whole, along, step })
+        let step = if whole {
+            1.0
+        } else {
+            round_step(fine.min(range / 100.0))
+        };
+        Some(Self {
+            default,
+            least,
+            most,
+            along,
+            step,
+        })
     }
 
     /// 0…1 along the track.
@@ -144,7 +159,9 @@ impl Track {
 /// Down to 1, 2 or 5 of a power of ten.
 fn round_step(step: f64) -> f64 {
     let power = 10f64.powf(step.log10().floor());
-    let of = [5.0, 2.0, 1.0].into_iter().find(|of| of * power <= step * 1.000_001);
+    let of = [5.0, 2.0, 1.0]
+        .into_iter()
+        .find(|of| of * power <= step * 1.000_001);
     of.unwrap_or(1.0) * power
 }
 
@@ -153,7 +170,13 @@ mod tests {
     use super::*;
 
     fn track(default: f64, least: f64, most: f64, whole: bool) -> Track {
-        Track::new(&Kind::Number { default, least, most, whole }).unwrap()
+        Track::new(&Kind::Number {
+            default,
+            least,
+            most,
+            whole,
+        })
+        .unwrap()
     }
 
     #[test]

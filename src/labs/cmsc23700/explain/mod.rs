@@ -58,10 +58,12 @@ impl Cmsc23700 {
             tests: self.tests(&fragment, &exact, light - 1),
             // As the visibility is read: dark below the half of it.
             in_shadow: Some(fragment.shadow < 0.75),
-            look_up: self.is_asked(fragment.spot_dot, light - 1).then_some(LookUp {
-                uv: fragment.place.truncate(),
-                depth: fragment.nearer,
-            }),
+            look_up: self
+                .is_asked(fragment.spot_dot, light - 1)
+                .then_some(LookUp {
+                    uv: fragment.place.truncate(),
+                    depth: fragment.nearer,
+                }),
         })
     }
 
