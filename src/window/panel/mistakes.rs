@@ -2,7 +2,7 @@
 
 use egui::{EventFilter, FontId, Key, Label, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 
-use super::{Facts, Wish, look};
+use super::{Facts, Wish, look, rows};
 use crate::mistakes::{self, Made, Mistake};
 
 /// Room for what a mistake is, at the bottom, in points.
@@ -54,7 +54,7 @@ impl Tab {
         let names: Vec<&str> = std::iter::once(NONE).chain(names).collect();
         let size = vec2(ui.available_width(), ROW * names.len() as f32);
         let (area, response) = ui.allocate_exact_size(size, Sense::click());
-        if let Some(pointer) = response.hover_pos() {
+        if let Some(pointer) = rows::pointed(ui, &response) {
             self.at = ((pointer.y - area.top()) / ROW) as usize;
         }
         let mut chosen = response.clicked().then_some(self.at);

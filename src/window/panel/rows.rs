@@ -3,7 +3,9 @@
 //! Tab and the arrows up and down go from row to row, as egui has it; the arrows left and right change a row.
 
 use egui::style::ScrollAnimation;
-use egui::{EventFilter, FontId, Id, Key, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use egui::{
+    EventFilter, FontId, Id, InputState, Key, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2,
+};
 
 use super::look;
 
@@ -20,6 +22,13 @@ pub fn steps(ui: &Ui, response: &Response) -> i32 {
     ui.input(|input| {
         input.num_presses(Key::ArrowRight) as i32 - input.num_presses(Key::ArrowLeft) as i32
     })
+}
+
+/// Where the pointer has just come to on a control. One that rests does not take part: the keyboard may be elsewhere.
+pub fn pointed(ui: &Ui, response: &Response) -> Option<Pos2> {
+    let acts =
+        |input: &InputState| input.pointer.delta() != Vec2::ZERO || input.pointer.any_click();
+    response.hover_pos().filter(|_| ui.input(acts))
 }
 
 /// Several values of which one is chosen, side by side, in as many lines as they need; `marked` has a dot below it.

@@ -69,7 +69,8 @@ fn row(ui: &mut Ui, setting: &Setting, settings: &Settings, wishes: &mut Vec<Wis
             }
         }
         let control = control.inner;
-        name.hovered() || control.hovered() || control.has_focus()
+        let pointed = [&name, &control].map(|part| rows::pointed(ui, part).is_some());
+        pointed.contains(&true) || control.has_focus()
     })
     .inner
 }
