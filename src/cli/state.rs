@@ -23,7 +23,7 @@ const FRAME: f64 = 1.0 / 60.0;
 const HARD: &str = "hard:";
 
 /// Which state of which lab.
-#[derive(Args)]
+#[derive(Clone, Args)]
 pub struct State {
     /// The lab's name, as `shadowlab labs` lists it
     pub lab: String,
@@ -130,11 +130,26 @@ impl Changes {
 
     /// Whether the setting of that name is given a value.
     pub fn sets(&self, name: &str) -> bool {
-        let names = self
-            .set
-            .iter()
-            .filter_map(|assignment| assignment.split_once('='));
-        names.map(|(name, _)| name).any(|given| given == name)
+        self.given(name).is_some()
+    }
+
+    /// The value that a setting is given; the last one counts.
+    fn given(&self, name: &str) -> Option<&str> {
+        let assignments = self.set.iter().rev();
+        let mut pairs = assignments.filter_map(|assignment| assignment.split_once('='));
+        pairs
+            .find(|(given, _)| *given == name)
+            .map(|(_, value)| value)
+    }
+
+    /// The shadow test, where it is not the handout's.
+    pub fn other_test(&self) -> Option<&str> {
+        self.given("shadow_test").filter(|test| *test != "handout")
+    }
+
+    /// Gives a setting another value, after those that the user gives.
+    pub fn set(&mut self, assignment: &str) {
+        self.set.push(assignment.to_owned());
     }
 }
 
@@ -213,6 +228,11 @@ impl State {
             return Ok(None);
         };
         let (mistake, _) = mistakes::find(name, &self.lab)?;
+        if let Some(test) = self.changes.other_test() {
+            return Err(Error::usage(format!(
+                "--mistake {name}: it is one of the handout's test, expected shadow_test=handout, found {test}"
+            )));
+        }
         Ok(Some(mistake))
     }
 

@@ -44,6 +44,10 @@ impl Read {
         let wrong = self.figures.false_shadow.interior + self.figures.false_light.interior;
         wrong as f64 / self.valid().max(1) as f64
     }
+
+    pub fn is_right(&self) -> bool {
+        self.wrong() <= SAME
+    }
 }
 
 impl Judged {
@@ -51,7 +55,7 @@ impl Judged {
     pub fn is_same(&self) -> bool {
         match (&self.difference, &self.read) {
             (Some(difference), _) => difference.is_same(),
-            (None, read) => read.as_ref().is_some_and(|read| read.wrong() <= SAME),
+            (None, read) => read.as_ref().is_some_and(Read::is_right),
         }
     }
 

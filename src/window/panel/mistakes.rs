@@ -24,6 +24,12 @@ impl Tab {
             ui.label("The lab draws with shaders of your own, whose mistakes are your own, too.");
             return;
         }
+        if let Some(test) = other_test(facts) {
+            ui.label(format!(
+                "The mistakes are of the handout's test, expected shadow_test=handout, found {test}."
+            ));
+            return;
+        }
         let of_lab: Vec<_> = mistakes::of_lab(facts.handout.name).collect();
         let is_made = |(mistake, _): &(&Mistake, &Made)| {
             facts.mistake.is_some_and(|made| made.name == mistake.name)
@@ -103,6 +109,14 @@ impl Tab {
         }
         chosen
     }
+}
+
+/// The shadow test in the handout's place, if there is one.
+fn other_test(facts: &Facts) -> Option<&'static str> {
+    let mut settings = facts.handout.settings.iter();
+    let has_tests = settings.any(|setting| setting.name == "shadow_test");
+    let test = has_tests.then(|| facts.settings.choice("shadow_test"))?;
+    (test != "handout").then_some(test)
 }
 
 fn tell(ui: &mut Ui, mistake: &Mistake, made: &Made) {
