@@ -1,6 +1,6 @@
 //! The classic mistakes that the lab can make, one at a time. The lab is started again with it, in the state that it has.
 
-use egui::{EventFilter, FontId, Key, Label, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{EventFilter, FontId, Key, Label, Rect, RichText, Sense, Ui, pos2, vec2};
 
 use super::{Facts, Wish, look, rows};
 use crate::mistakes::{self, Made, Mistake};
@@ -36,9 +36,8 @@ impl Tab {
         };
         let made = of_lab.iter().position(is_made).map_or(0, |row| row + 1);
         let height = ui.available_height() - TOLD;
-        let chosen = ScrollArea::vertical()
+        let chosen = rows::scrolled("list")
             .max_height(height)
-            .auto_shrink([false, false])
             .show(ui, |ui| self.list(ui, &of_lab, made))
             .inner;
         if let Some(row) = chosen.filter(|row| *row != made) {
@@ -120,7 +119,7 @@ fn other_test(facts: &Facts) -> Option<&'static str> {
 }
 
 fn tell(ui: &mut Ui, mistake: &Mistake, made: &Made) {
-    ScrollArea::vertical().id_salt("told").show(ui, |ui| {
+    rows::scrolled("told").show(ui, |ui| {
         for (what, text) in [
             ("what it looks like", mistake.symptom),
             ("where it comes from", mistake.cause),

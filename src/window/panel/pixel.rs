@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Color32, Key, Painter, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
+use egui::{Color32, Key, Painter, Rect, RichText, Sense, Stroke, Ui, vec2};
 
 use super::texels::Texels;
 use super::{Facts, look, rows};
@@ -92,24 +92,22 @@ impl Tab {
         self.row(ui, facts);
         let Some(asked) = &self.asked else { return };
         ui.separator();
-        ScrollArea::vertical()
-            .auto_shrink([false, false])
-            .show(ui, |ui| {
-                rows::scroll(ui);
-                match &asked.told {
-                    Err(refused) => {
-                        ui.colored_label(look::WRONG, refused);
-                    }
-                    Ok((explanation, texels)) => {
-                        verdict(ui, explanation);
-                        if let Some(texels) = texels {
-                            texels.show(ui);
-                        }
-                        steps(ui, explanation);
-                        matrices(ui, explanation);
-                    }
+        rows::scrolled("explained").show(ui, |ui| {
+            rows::scroll(ui);
+            match &asked.told {
+                Err(refused) => {
+                    ui.colored_label(look::WRONG, refused);
                 }
-            });
+                Ok((explanation, texels)) => {
+                    verdict(ui, explanation);
+                    if let Some(texels) = texels {
+                        texels.show(ui);
+                    }
+                    steps(ui, explanation);
+                    matrices(ui, explanation);
+                }
+            }
+        });
     }
 
     /// Which pixel. With the keyboard's focus the arrows move it: by one, with shift by ten.

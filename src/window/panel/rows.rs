@@ -2,9 +2,11 @@
 //!
 //! Tab and the arrows up and down go from row to row, as egui has it; the arrows left and right change a row.
 
+use egui::scroll_area::ScrollSource;
 use egui::style::ScrollAnimation;
 use egui::{
-    EventFilter, FontId, Id, InputState, Key, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2,
+    EventFilter, FontId, Id, InputState, Key, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2,
+    pos2, vec2,
 };
 
 use super::look;
@@ -122,6 +124,14 @@ pub fn light(ui: &mut Ui, light: &mut usize, lights: usize) {
         *light = chosen + 1;
     }
     ui.add_space(6.0);
+}
+
+/// What may be longer than there is room. The wheel scrolls it and not its bar, which would be a stop on the keyboard's way.
+pub fn scrolled(id: &str) -> ScrollArea {
+    ScrollArea::vertical()
+        .id_salt(id)
+        .scroll_source(ScrollSource::MOUSE_WHEEL)
+        .auto_shrink([false, false])
 }
 
 /// Home and End scroll what does not fit, up and down.

@@ -1,6 +1,6 @@
 //! Every setting of the lab's one table, with what it does, and the handout's value marked by a dot.
 
-use egui::{Align2, Button, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align2, Button, RichText, Sense, Ui, vec2};
 
 use super::track::Track;
 use super::{Facts, Wish, look, rows};
@@ -21,9 +21,8 @@ impl Tab {
     pub fn show(&mut self, ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
         let table = facts.handout.settings;
         let height = ui.available_height() - HELP;
-        ScrollArea::vertical()
+        rows::scrolled("settings")
             .max_height(height)
-            .auto_shrink([false, false])
             .show(ui, |ui| {
                 for (i, setting) in table.iter().enumerate() {
                     let is_at = row(ui, setting, facts.settings, wishes);
