@@ -1,5 +1,7 @@
 //! The commands and their options.
 
+mod check_shaders;
+mod child;
 mod compare;
 mod gallery;
 mod measuring;
@@ -11,11 +13,12 @@ mod timings;
 mod values;
 
 use std::io::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
-use shadowlab::gl::trace;
+use shadowlab::gl::{self, trace};
 use shadowlab::hard;
 use shadowlab::labs::{self, Probe, Show, parse_keys};
 use shadowlab::window::{self, Api, View};
@@ -53,6 +56,8 @@ enum Command {
     Measure(measuring::MeasureCommand),
     /// Hold my own program's picture against the lab's, and tell which mistake explains it
     Compare(compare::CompareCommand),
+    /// Hold my own shaders against the lab's: names, types and texture units, then the picture
+    CheckShaders(check_shaders::CheckShadersCommand),
     /// Show the classic mistakes, each beside the right picture: a page
     Mistakes(mistakes::MistakesCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
@@ -125,8 +130,14 @@ struct Place {
 
 impl Cli {
     pub fn run(self) -> Result<ExitCode> {
+        if child::is_one() {
+            child::end_with_parent();
+        } else if let Some((folder, limit)) = self.students_shaders() {
+            return child::again(&folder, limit);
+        }
         match self.command {
             Command::Compare(options) => return options.run(),
+            Command::CheckShaders(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
@@ -141,9 +152,28 @@ impl Cli {
         Ok(ExitCode::SUCCESS)
     }
 
+    /// The folder of shaders, and the limit, of a command that draws a picture or a few with them.
+    fn students_shaders(&self) -> Option<(PathBuf, u64)> {
+        let changes = match &self.command {
+            Command::Screenshot(options) => options.changes(),
+            Command::Trace(Trace { state, .. }) | Command::Explain(Explain { state, .. }) => {
+                &state.changes
+            }
+            Command::Truth(options) => options.changes(),
+            Command::Measure(options) => options.changes(),
+            Command::Compare(options) => options.changes(),
+            Command::CheckShaders(options) => return Some(options.folder_and_limit()),
+            // These draw for as long as a person likes, and try the shaders first.
+            Command::View(_) | Command::Report(_) => return None,
+            Command::Mistakes(_) | Command::Labs | Command::Devices => return None,
+        };
+        Some((changes.glsl.clone()?, changes.limit))
+    }
+
     /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
     pub fn trouble_code(&self) -> Option<u8> {
-        matches!(self.command, Command::Compare(_)).then_some(compare::TROUBLE)
+        matches!(self.command, Command::Compare(_) | Command::CheckShaders(_))
+            .then_some(compare::TROUBLE)
     }
 }
 
@@ -154,6 +184,9 @@ impl ViewOptions {
         let mistake = state.mistake()?;
         let inputs = parse_keys(&state.changes.keys)?;
         let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
+        if let Some(folder) = &state.changes.glsl {
+            child::try_first(&state, folder)?;
+        }
         window::open(View {
             handout,
             size: state.changes.size.or(scene.size).unwrap_or(handout.size),
@@ -188,7 +221,10 @@ impl Trace {
         let mut running = self.state.start(&self.drawing, first, true)?;
         running.draw(self.drawing.frames, Show::Picture)?;
         running.timings.lap("frames");
-        print(&trace::to_c(&trace::take()))
+        let calls = trace::take();
+        // Before anything is told: a student's shader that never ends is met here.
+        gl::finish(&running.context.gl);
+        print(&trace::to_c(&calls))
     }
 }
 
@@ -202,6 +238,11 @@ impl Explain {
         check_light(labs::find(&self.state.lab)?, self.light)?;
         self.state.changes.refuse_mistake("explain")?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
+        if running.lab.has_students_test() {
+            eprintln!(
+                "note: what is explained is the lab's own shadow test, not that of the folder's shaders"
+            );
+        }
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running
             .lab

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use image::RgbImage;
+use shadowlab::compare::Shadows;
 use shadowlab::gl;
 use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
 use shadowlab::mistakes::{self, Mistake};
+use shadowlab::own_shaders;
 use shadowlab::scene::{self, Scene};
 use shadowlab::{Error, Result};
 
@@ -61,6 +63,9 @@ pub struct Changes {
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     pub glsl: Option<PathBuf>,
+    /// Seconds that drawing with the shaders of --glsl, or one picture of compare --batch, may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub limit: u64,
     /// Make one of the classic mistakes; `shadowlab labs` lists those that a lab can make
     #[arg(long, value_name = "NAME", conflicts_with = "glsl")]
     mistake: Option<String>,
@@ -263,6 +268,19 @@ impl State {
         options
     }
 
+    /// The options but for the size.
+    pub fn all_options(&self) -> Vec<String> {
+        let mut options = self.options();
+        let Changes { keys, time, .. } = &self.changes;
+        if !keys.is_empty() {
+            options.extend(["--keys".to_owned(), keys.clone()]);
+        }
+        if *time > 0.0 {
+            options.extend(["--time".to_owned(), time.to_string()]);
+        }
+        options
+    }
+
     /// Brings a lab that has just started to this state.
     pub fn bring(&self, handout: &Handout, lab: &mut dyn Lab) -> Result<()> {
         let inputs = parse_keys(&self.changes.keys)?;
@@ -351,5 +369,16 @@ impl Running {
             self.lab.render(&self.context.gl, show)?;
         }
         gl::check_errors(&self.context.gl, "drawing")
+    }
+
+    /// Where the light (from 1) arrives in the last of so many frames, by the state's own test.
+    pub fn visibility(&mut self, frames: u32, light: usize) -> Result<Shadows> {
+        if frames > 1 {
+            self.draw(frames - 1, Show::Picture)?;
+            self.lab.advance(FRAME);
+        }
+        let shadows = own_shaders::visibility(self.lab.as_mut(), &self.context, self.size, light)?;
+        gl::check_errors(&self.context.gl, "drawing")?;
+        Ok(shadows)
     }
 }

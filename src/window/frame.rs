@@ -10,6 +10,7 @@ use winit::event_loop::ControlFlow;
 use super::View;
 use super::panel::Seen;
 use super::shot;
+use super::trial::{self, Trial};
 use super::viewer::{Next, Viewer, tell};
 use crate::labs::{Input, Show};
 use crate::{Result, gl, picture};
@@ -65,7 +66,11 @@ impl Viewer {
         let now = Instant::now();
         if self.reload_at.is_some_and(|at| at <= now) {
             self.reload_at = None;
-            self.reload();
+            self.try_shaders();
+        }
+        if let Some(tried) = self.trial.as_mut().and_then(Trial::result) {
+            self.trial = None;
+            self.reload(tried);
         }
         if self.fit_at.is_some_and(|at| at <= now) {
             self.fit();
@@ -82,7 +87,14 @@ impl Viewer {
         if panel.is_some_and(|at| at <= now) {
             self.canvas.window.request_redraw();
         }
-        let times = [self.reload_at, self.fit_at, self.pace.next, panel];
+        let look_again = self.trial.as_ref().map(|_| now + trial::PATIENCE);
+        let times = [
+            self.reload_at,
+            self.fit_at,
+            self.pace.next,
+            panel,
+            look_again,
+        ];
         match times.into_iter().flatten().filter(|at| *at > now).min() {
             Some(at) => ControlFlow::WaitUntil(at),
             None => ControlFlow::Wait,
@@ -129,8 +141,22 @@ impl Viewer {
         }
     }
 
-    fn reload(&mut self) {
-        let error = self.stage.reload(&self.canvas.gl).err();
+    // ---- Saved shaders ----
+
+    /// Has the state drawn with the saved shaders elsewhere, where no window hangs on it.
+    fn try_shaders(&mut self) {
+        // The one that still draws has older shaders.
+        self.trial = None;
+        match self.stage.with_state(Trial::start) {
+            Ok(trial) => self.trial = Some(trial),
+            Err(error) => self.shown.message = Some(error.to_string()),
+        }
+    }
+
+    /// Takes the saved shaders, if they have drawn a picture; else goes on with those that it has.
+    fn reload(&mut self, tried: Result<()>) {
+        let reloaded = tried.and_then(|()| self.stage.reload(&self.canvas.gl));
+        let error = reloaded.err();
         self.shown.message = error.map(|error| error.to_string());
         self.canvas.window.request_redraw();
     }
@@ -247,10 +273,11 @@ impl Viewer {
         let pixels = gl::read_rgb(&self.canvas.gl, self.stage.size());
         let name = shot::free_name(self.stage.handout.name);
         picture::write_rgb(&name, &pixels, &picture::notes(&self.canvas.renderer))?;
+        let line = self.stage.with_state(shot::command_line);
         tell(&format!(
-            "{}\n{}",
-            name.display(),
-            self.stage.command_line()
+            "{}
+{line}",
+            name.display()
         ));
         Ok(())
     }

@@ -13,6 +13,7 @@
 //! | `panel` | what stands beside it on a key: settings, mistakes, what is inside |
 //! | `text` | letters into an image |
 //! | `shot` | F12: a file, and the command line that draws it again |
+//! | `trial` | a saved shader, tried in a process of its own |
 //! | `watch` | the student's folder of shaders |
 
 #[cfg(target_os = "linux")]
@@ -35,6 +36,8 @@ mod shot;
 mod stage;
 #[cfg(target_os = "linux")]
 mod text;
+#[cfg(target_os = "linux")]
+mod trial;
 #[cfg(target_os = "linux")]
 mod viewer;
 #[cfg(target_os = "linux")]

@@ -136,13 +136,13 @@ impl Stage {
         self.inputs.push(input);
     }
 
-    /// What draws the same picture without a display.
-    pub fn command_line(&self) -> String {
+    /// The state that another command line is to draw.
+    pub fn with_state<T>(&self, use_it: impl FnOnce(&shot::State) -> T) -> T {
         let mut options = self.options.clone();
         if let Some(mistake) = self.mistake {
             options.extend(["--mistake".to_owned(), mistake.name.to_owned()]);
         }
-        shot::command_line(&shot::State {
+        use_it(&shot::State {
             lab: self.handout.name,
             size: self.size,
             options: &options,

@@ -16,6 +16,7 @@ use super::mouse::Mouse;
 use super::panel::{Panel, Wish};
 use super::panels::{Panels, Shown};
 use super::stage::{self, Stage};
+use super::trial::Trial;
 use super::{View, watch};
 use crate::Result;
 use crate::labs::{Input, Pointer};
@@ -51,6 +52,8 @@ pub struct Viewer {
     /// A screenshot is wanted of the next frame.
     pub(super) shot: bool,
     pub(super) reload_at: Option<Instant>,
+    /// Of the shaders that were saved last.
+    pub(super) trial: Option<Trial>,
     pub(super) paused: bool,
     pub(super) pace: Pace,
 
@@ -95,6 +98,7 @@ impl Viewer {
             shown: Shown::default(),
             shot: false,
             reload_at: None,
+            trial: None,
             paused: false,
             pace,
             modifiers: ModifiersState::empty(),

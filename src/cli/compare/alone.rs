@@ -29,11 +29,23 @@ struct Held<'a> {
 }
 
 pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -> Result<Judged> {
+    let loaded = load(path, command.crop)?;
+    judge_loaded(command, handout, path, loaded, None)
+}
+
+/// `shadows` are those of a light (from 1), where they need not be read from the picture alone.
+pub fn judge_loaded(
+    command: &CompareCommand,
+    handout: &'static Handout,
+    path: &Path,
+    loaded: Loaded,
+    shadows: Option<(usize, Shadows)>,
+) -> Result<Judged> {
     let Loaded {
         picture: mut given,
         is_jpeg,
         mut notes,
-    } = load(path, command.crop)?;
+    } = loaded;
     let found: [u32; 2] = given.dimensions().into();
     let reference = command.reference.as_deref();
     let reference = reference.map(|path| load(path, command.crop)).transpose()?;
@@ -107,8 +119,10 @@ pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -
         mine,
         forgiven,
     } = held;
-    let shadows = Shadows::between(&mine, &lab.lit()?, &lab.dark()?);
-    let read = lab.read(shadows)?;
+    let read = match shadows {
+        Some((light, shadows)) => Some(lab.read_of(light, shadows)?),
+        None => lab.read(Shadows::between(&mine, &lab.lit()?, &lab.dark()?))?,
+    };
     if read.is_none() {
         notes.push(format!(
             "the shadows of {} lights cannot be told apart in one picture: no figures of them",
@@ -121,6 +135,7 @@ pub fn judge(command: &CompareCommand, handout: &'static Handout, path: &Path) -
         options: lab.state.options(),
         forgiven,
         notes,
+        findings: Vec::new(),
         difference: Some(difference),
         diagnosis,
         read,

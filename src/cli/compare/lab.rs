@@ -1,13 +1,13 @@
 //! The lab's pictures, in the state that a student's picture is of.
 
-use image::{GrayImage, Luma, Rgb, RgbImage};
+use image::{Rgb, RgbImage};
 use shadowlab::Result;
 use shadowlab::compare::Shadows;
 use shadowlab::diagnosis::Suspects;
-use shadowlab::ground_truth::{Label, Rays};
+use shadowlab::ground_truth::Rays;
 use shadowlab::headless::Choice;
 use shadowlab::labs::Handout;
-use shadowlab::measure::Measure;
+use shadowlab::measure::{Measure, only_known};
 use shadowlab::mistakes::{self, Edits};
 
 use super::judged::Read;
@@ -103,29 +103,27 @@ impl<'a> LabPictures<'a> {
         let &[light] = lights.as_slice() else {
             return Ok(None);
         };
+        drop(running);
+        self.read_of(light, shadows).map(Some)
+    }
+
+    /// The shadows of a light (from 1) against the truth.
+    pub fn read_of(&self, light: usize, shadows: Shadows) -> Result<Read> {
+        let running = self.state.start(&Drawing::on(self.device), &[], false)?;
+        running.lab.check_light(light)?;
         let rays = Rays::new(&running.lab.now(), light - 1);
         let truth = rays.truth(running.size);
         let Shadows { visibility, known } = shadows;
-        let mut filled: GrayImage = visibility;
-        let mut judged = 0;
-        for ((pixel, known), label) in filled.pixels_mut().zip(known).zip(&truth.labels) {
-            match (label, known) {
-                (Label::NotValid, _) => (),
-                (_, true) => judged += 1,
-                // What cannot be read is not called wrong.
-                (Label::Lit, false) => *pixel = Luma([255]),
-                (Label::Shadowed, false) => *pixel = Luma([0]),
-            }
-        }
+        let (filled, judged) = only_known(visibility, &known, &truth);
         let map = running.lab.shadow_texture(light).ok().map(|map| map.scale);
         let (mut figures, mistakes) = Measure::new(&rays, &truth).measure(&filled, map.as_ref());
         // The lab's, not the picture's.
         figures.bias = None;
-        Ok(Some(Read {
+        Ok(Read {
             judged,
             figures,
             mistakes,
-        }))
+        })
     }
 }
 

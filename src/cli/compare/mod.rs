@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use image::RgbImage;
+use shadowlab::compare::Shadows;
 use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout};
 use shadowlab::{Error, Result, picture};
@@ -19,6 +21,8 @@ use shadowlab::{Error, Result, picture};
 use super::print;
 use super::state::{Changes, State};
 use super::values::parse_crop;
+pub use judged::Judged;
+use load::Loaded;
 
 /// What the pictures are the same within their tolerance, differ, or could not be compared, as diff has it.
 pub const SAME: u8 = 0;
@@ -50,15 +54,47 @@ pub struct CompareCommand {
     /// Compare every picture of this folder, each in a process of its own
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "reference"])]
     batch: Option<PathBuf>,
-    /// Seconds that a picture of --batch may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "batch")]
-    limit: u64,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
 }
 
 impl CompareCommand {
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
+    /// The command for a picture that is drawn in this state, and not loaded.
+    pub fn of_drawn(changes: &Changes, device: &Choice) -> Self {
+        Self {
+            what: Vec::new(),
+            changes: changes.clone(),
+            reference: None,
+            crop: None,
+            strict: false,
+            json: false,
+            output: None,
+            batch: None,
+            device: device.clone(),
+        }
+    }
+
+    /// Holds a picture that was drawn against the lab's. `shadows` are those of a light (from 1), where they are known.
+    pub fn drawn(
+        &self,
+        handout: &'static Handout,
+        name: &Path,
+        picture: RgbImage,
+        shadows: Option<(usize, Shadows)>,
+    ) -> Result<Judged> {
+        let drawn = Loaded {
+            picture,
+            is_jpeg: false,
+            notes: Vec::new(),
+        };
+        alone::judge_loaded(self, handout, name, drawn, shadows)
+    }
+
     pub fn run(self) -> Result<ExitCode> {
         let Some((lab, pictures)) = self.what.split_last() else {
             unreachable!("clap asks for one");
@@ -92,9 +128,7 @@ impl CompareCommand {
             Some(without) => pair::judge(self, handout, mine, without)?,
         };
         if let Some(output) = &self.output {
-            picture::write_whole(output, |file| {
-                std::io::Write::write_all(file, page::page(&judged).into_string().as_bytes())
-            })?;
+            judged.write_page(output)?;
         }
         print(&match self.json {
             true => format!("{:#}\n", judged.json()),
@@ -121,15 +155,8 @@ impl CompareCommand {
 
     /// The options of one picture's comparison, as another command line would repeat them.
     fn state_options(&self, handout: &Handout) -> Vec<String> {
-        let mut options = self.state(handout).options();
-        let changes = &self.changes;
-        if !changes.keys.is_empty() {
-            options.extend(["--keys".to_owned(), changes.keys.clone()]);
-        }
-        if changes.time > 0.0 {
-            options.extend(["--time".to_owned(), changes.time.to_string()]);
-        }
-        if let Some([width, height]) = changes.size {
+        let mut options = self.state(handout).all_options();
+        if let Some([width, height]) = self.changes.size {
             options.extend(["--size".to_owned(), format!("{width}x{height}")]);
         }
         if let Some([x, y, width, height]) = self.crop {

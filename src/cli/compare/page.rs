@@ -47,6 +47,10 @@ pub fn page(judged: &Judged) -> Markup {
                 @if let Some(difference) = &judged.difference { p { (difference_words(difference)) } }
                 @for forgiven in &judged.forgiven { p { "Forgiven: " (forgiven) } }
                 @for note in &judged.notes { p { "Note: " (note) } }
+                @if !judged.findings.is_empty() {
+                    h2 { "The shaders" }
+                    ul { @for finding in &judged.findings { li { code { (finding) } } } }
+                }
                 (diagnosis(judged))
                 (pictures(judged))
                 @if let Some(read) = &judged.read {

@@ -80,6 +80,7 @@ pub fn judge(
         options: lab.state.options(),
         forgiven,
         notes,
+        findings: Vec::new(),
         difference: None,
         diagnosis,
         read: Some(read),

@@ -46,7 +46,7 @@ impl Tab {
 
     /// What the window is to show.
     pub fn show(&self, stage: &Stage, light: usize) -> Show {
-        match self.shows_visibility && stage.lab.check_light(light).is_ok() {
+        match self.shows_visibility && refusal(stage, light).is_none() {
             true => Show::Visibility { light },
             false => Show::Picture,
         }
@@ -63,11 +63,7 @@ impl Tab {
             self.answer = Some(answer);
             self.marks = None;
         }
-        self.refused = stage
-            .lab
-            .check_light(light)
-            .err()
-            .map(|error| error.to_string());
+        self.refused = refusal(stage, light);
         let now = (stage.changes(), light);
         let answered = self.answer.as_ref();
         self.is_of_picture = answered.is_some_and(|answer| (answer.changes, answer.light) == now);
@@ -151,6 +147,17 @@ impl Tab {
             ui.colored_label(look::CHANGED, text);
         }
     }
+}
+
+/// Why the lab's own visibility is not that of the picture.
+fn refusal(stage: &Stage, light: usize) -> Option<String> {
+    if stage.lab.has_students_test() {
+        let told = "the test is in a shader of yours together with the lighting, expected the lab's own; `shadowlab \
+                    measure --glsl` reads its shadows from pictures";
+        return Some(told.to_owned());
+    }
+    let off = stage.lab.check_light(light).err();
+    off.map(|error| error.to_string())
 }
 
 /// What is right is left out.
