@@ -63,7 +63,7 @@ pub struct Changes {
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     pub glsl: Option<PathBuf>,
-    /// Seconds that drawing with the shaders of --glsl, or one picture of compare --batch, may take
+    /// Seconds that drawing with the shaders of --glsl may take, or one picture of compare --batch (of the cores' time)
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub limit: u64,
     /// Make one of the classic mistakes; `shadowlab labs` lists those that a lab can make
