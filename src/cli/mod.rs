@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+mod check_trace;
 mod compare;
 mod gallery;
 mod measuring;
@@ -53,6 +54,8 @@ enum Command {
     Measure(measuring::MeasureCommand),
     /// Hold my own program's picture against the lab's, and tell which mistake explains it
     Compare(compare::CompareCommand),
+    /// Hold a dump of my own program's GL calls against the handout's steps
+    CheckTrace(check_trace::CheckTraceCommand),
     /// Show the classic mistakes, each beside the right picture: a page
     Mistakes(mistakes::MistakesCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
@@ -127,6 +130,7 @@ impl Cli {
     pub fn run(self) -> Result<ExitCode> {
         match self.command {
             Command::Compare(options) => return options.run(),
+            Command::CheckTrace(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
@@ -141,9 +145,13 @@ impl Cli {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
+    /// The exit code of every error, where it does not hang on the error: of compare and check-trace it is diff's.
     pub fn trouble_code(&self) -> Option<u8> {
-        matches!(self.command, Command::Compare(_)).then_some(compare::TROUBLE)
+        match self.command {
+            Command::Compare(_) => Some(compare::TROUBLE),
+            Command::CheckTrace(_) => Some(check_trace::TROUBLE),
+            _ => None,
+        }
     }
 }
 
