@@ -70,6 +70,8 @@ pub struct Draw {
     pub matrices: Vec<Matrix>,
     /// The fixed pipeline's: modelview, projection, texture matrices, and the line of the last change.
     pub fixed: (DMat4, DMat4, Vec<DMat4>, u64),
+    /// The fixed pipeline's factor that projects onto a plane, and its line.
+    pub projector: Option<(u64, DMat4)>,
     /// What the program's samplers read.
     pub samplers: Vec<Reading>,
     /// What is bound, by unit.
@@ -239,6 +241,7 @@ impl Kept {
                 state.matrices.textures().collect(),
                 state.matrices.line,
             ),
+            projector: state.matrices.projector(),
             samplers: samplers.into_iter().map(reading).collect(),
             units: state.units(),
         }

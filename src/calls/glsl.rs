@@ -12,6 +12,8 @@ pub struct Source {
     pub uniforms: BTreeMap<String, Uniform>,
     /// One half is in it: the way from [−1,1] to [0,1] may be made here.
     pub has_half: bool,
+    /// The depth is the shader's own.
+    pub writes_depth: bool,
     /// The samplers of which `.y`, `.z`, `.g` or `.b` is read.
     pub beyond_red: Vec<String>,
 }
@@ -36,6 +38,7 @@ impl Source {
         let words: Vec<&str> = words(&text);
         let mut source = Self {
             has_half: words.iter().any(|word| is_half(word)),
+            writes_depth: words.contains(&"gl_FragDepth"),
             ..Self::default()
         };
         let mut at = 0;
@@ -99,6 +102,7 @@ impl Source {
             known.is_used |= uniform.is_used;
         }
         self.has_half |= other.has_half;
+        self.writes_depth |= other.writes_depth;
         self.beyond_red.extend(other.beyond_red.iter().cloned());
     }
 }

@@ -80,7 +80,7 @@ pub const MAPS: &[Handout] = &[
     },
 ];
 
-pub const EECS487: &str = "eecs487";
+// Projected shadows have a handout of their own: eecs487.
 pub const HARD: &str = "1. Hard shadows";
 pub const CLIPPED: &str = "2. Clipped projected shadows";
 pub const SOFT: &str = "3. Soft shadows";

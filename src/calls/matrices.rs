@@ -47,8 +47,8 @@ pub enum Relation {
 
 #[derive(Debug, Default)]
 pub struct Relations {
-    /// The first that was found, with the line of the second pass's matrix and its uniform's name.
-    pub found: Option<(Relation, u64, String)>,
+    /// The first that was found, and the left matrix of the second pass's product.
+    pub found: Option<(Relation, Matrix)>,
     /// Draw calls of the first and the second pass that draw one mesh with different matrices.
     pub differs: Option<(u64, u64)>,
 }
@@ -134,6 +134,17 @@ pub fn projection(draw: &Draw) -> Option<DMat4> {
         .or_else(|| to_light(draw).first().copied())
 }
 
+impl Relations {
+    /// The light's projection, with its view or without, and with no model that could stretch it.
+    pub fn of_light(&self) -> Option<DMat4> {
+        match self.found.as_ref()? {
+            (Relation::WithBias, matrix) => Some(B.inverse() * matrix.value),
+            (Relation::Plain, matrix) => Some(matrix.value),
+            _ => None,
+        }
+    }
+}
+
 /// Projection, view, model; 3 for a name that says nothing.
 fn rank(name: &str) -> u8 {
     let name = name.to_lowercase();
@@ -179,7 +190,7 @@ fn extend(
     }
 }
 
-fn relation(first: &Draw, second: &Draw) -> Option<(Relation, u64, String)> {
+fn relation(first: &Draw, second: &Draw) -> Option<(Relation, Matrix)> {
     let lights = to_light(first);
     let matrices = second_matrices(second);
     let values: Vec<DMat4> = matrices.iter().map(|matrix| matrix.value).collect();
@@ -199,7 +210,7 @@ fn relation(first: &Draw, second: &Draw) -> Option<(Relation, u64, String)> {
     }
     let best =
         best.or_else(|| transposed(&values, &lights).map(|place| (Relation::Transposed, place)));
-    best.map(|(relation, place)| (relation, matrices[place].line, matrices[place].name.clone()))
+    best.map(|(relation, place)| (relation, matrices[place].clone()))
 }
 
 /// The program's matrices, and the fixed pipeline's that a shader of its time finds.
@@ -284,9 +295,9 @@ fn camera_is_the_same(first: &Draw, second: &Draw) -> bool {
 
 /// How many times farther the far plane is than the near one; none for a projection without perspective, or without end.
 pub fn depth_range(light: DMat4) -> Option<f64> {
-    // Depth and w are both linear along the axis, so that each says the other: z = b − a·w.
+    // Depth and w are both linear along the axis, so that each says the other: z = a·w + b.
     let (z, w) = (light.row(2).truncate(), light.row(3).truncate());
-    let a = -z.dot(w) / w.length_squared();
+    let a = z.dot(w) / w.length_squared();
     (a > 1.0 + 1e-9).then(|| (a + 1.0) / (a - 1.0))
 }
 

@@ -91,8 +91,9 @@ impl Texture {
 pub struct Framebuffer {
     /// By the attachment point.
     pub attachments: BTreeMap<String, Set<Attachment>>,
-    /// None: a color buffer, as a framebuffer starts.
-    pub draw_buffers: Option<Set<bool>>,
+    /// None: the first color buffer, as a framebuffer starts.
+    pub draw_buffers: Option<Set<Vec<String>>>,
+    /// Whether it is GL_NONE.
     pub read_buffer: Option<Set<bool>>,
     /// What glCheckFramebufferStatus said.
     pub status: Option<Set<String>>,
@@ -117,6 +118,25 @@ impl Framebuffer {
         }
     }
 
+    /// Whether glDrawBuffer chose no color buffer.
+    pub fn draws_no_color(&self) -> bool {
+        let chosen = self.draw_buffers.as_ref();
+        chosen.is_some_and(|set| set.value.iter().all(|buffer| is_none(buffer)))
+    }
+
+    /// The color buffers that are drawn to.
+    pub fn drawn_to(&self) -> impl Iterator<Item = &Set<Attachment>> {
+        let first = vec!["GL_COLOR_ATTACHMENT0".to_owned()];
+        let chosen = self
+            .draw_buffers
+            .as_ref()
+            .map_or(first, |set| set.value.clone());
+        let attached = self.attachments.iter();
+        attached
+            .filter(move |(point, _)| chosen.contains(point))
+            .map(|(_, attachment)| attachment)
+    }
+
     pub fn color(&self) -> Option<&Set<Attachment>> {
         let mut points = self.attachments.iter();
         points
@@ -128,6 +148,11 @@ impl Framebuffer {
         let mut attached = self.attachments.values();
         attached.any(|at| matches!(&at.value, Attachment::Texture(id) if id == texture))
     }
+}
+
+/// apitrace says GL_ZERO for GL_NONE.
+pub fn is_none(buffer: &str) -> bool {
+    matches!(buffer, "GL_NONE" | "GL_ZERO")
 }
 
 /// A linked program.

@@ -302,17 +302,31 @@ fn buffers(steps: &mut Steps, step: (&'static str, &'static str), pass: &Pass) {
         .read_buffer
         .as_ref()
         .is_some_and(|set| set.value);
-    match &framebuffer.draw_buffers {
-        Some(set) if set.value && read => steps.found(step, set.line, "and glReadBuffer(GL_NONE)"),
-        Some(set) if set.value => steps.other(step, Mark::Unclear, set.line,
-            "glReadBuffer(GL_NONE) is not called for the framebuffer",
-            "none here; a driver of OpenGL 3 may call the framebuffer incomplete, and then there are no shadows",
-            "glReadBuffer(GL_NONE)"),
-        Some(set) => steps.mistake(step, Mark::OtherArguments, set.line, "no_draw_buffer_none",
-            "a color buffer is chosen that the framebuffer does not have"),
-        None => steps.mistake(step, Mark::Missing, line, "no_draw_buffer_none",
-            "not called while the framebuffer was bound"),
+    let Some(chosen) = &framebuffer.draw_buffers else {
+        let told = "not called while the framebuffer was bound";
+        return steps.mistake(step, Mark::Missing, line, "no_draw_buffer_none", told);
+    };
+    if !framebuffer.draws_no_color() {
+        let told = "a color buffer is chosen that the framebuffer does not have";
+        return steps.mistake(
+            step,
+            Mark::OtherArguments,
+            chosen.line,
+            "no_draw_buffer_none",
+            told,
+        );
     }
+    if read {
+        return steps.found(step, chosen.line, "and glReadBuffer(GL_NONE)");
+    }
+    steps.other(
+        step,
+        Mark::Unclear,
+        chosen.line,
+        "glReadBuffer(GL_NONE) is not called for the framebuffer",
+        "none here; a driver of OpenGL 3 may call the framebuffer incomplete, and then there are no shadows",
+        "glReadBuffer(GL_NONE)",
+    );
 }
 
 fn complete(steps: &mut Steps, handout: &Handout, pass: &Pass) {

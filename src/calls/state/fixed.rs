@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DMat4, DVec3};
 
+use crate::calls::matrices::light_and_plane;
 use crate::calls::syntax::Call;
 
 /// GL promises 32 modelview matrices; nobody nests deeper.
@@ -13,18 +14,30 @@ const DEEPEST: usize = 256;
 #[derive(Default)]
 pub struct Matrices {
     mode: String,
-    stacks: BTreeMap<(String, i64), Vec<DMat4>>,
+    stacks: BTreeMap<(String, i64), Vec<Top>>,
     /// The line of the last change.
     pub line: u64,
 }
 
+#[derive(Clone, Copy, Default)]
+struct Top {
+    matrix: DMat4,
+    /// The factor of it that projects onto a plane, and its line.
+    projector: Option<(u64, DMat4)>,
+}
+
 impl Matrices {
     pub fn modelview(&self) -> DMat4 {
-        self.top("GL_MODELVIEW", 0)
+        self.top("GL_MODELVIEW", 0).matrix
     }
 
     pub fn projection(&self) -> DMat4 {
-        self.top("GL_PROJECTION", 0)
+        self.top("GL_PROJECTION", 0).matrix
+    }
+
+    /// What projects onto a plane in the modelview matrix.
+    pub fn projector(&self) -> Option<(u64, DMat4)> {
+        self.top("GL_MODELVIEW", 0).projector
     }
 
     /// Of a unit whose matrix was ever changed.
@@ -33,10 +46,10 @@ impl Matrices {
             .stacks
             .iter()
             .filter(|((mode, _), _)| mode == "GL_TEXTURE");
-        units.filter_map(|(_, stack)| stack.last().copied())
+        units.filter_map(|(_, stack)| stack.last().map(|top| top.matrix))
     }
 
-    fn top(&self, mode: &str, unit: i64) -> DMat4 {
+    fn top(&self, mode: &str, unit: i64) -> Top {
         let stack = self.stacks.get(&(mode.to_owned(), unit));
         stack
             .and_then(|stack| stack.last())
@@ -83,12 +96,22 @@ impl Matrices {
         let stack = self
             .stacks
             .entry((mode.to_owned(), unit))
-            .or_insert_with(|| vec![DMat4::IDENTITY]);
+            .or_insert_with(|| vec![Top::default()]);
         let depth = stack.len();
         let top = stack.last_mut().expect("a stack has a bottom");
         match changed {
-            Change::To(matrix) => *top = matrix,
-            Change::By(matrix) => *top *= matrix,
+            Change::To(matrix) => {
+                *top = Top {
+                    matrix,
+                    projector: None,
+                }
+            }
+            Change::By(matrix) => {
+                top.matrix *= matrix;
+                if light_and_plane(matrix).is_some() {
+                    top.projector = Some((call.line, matrix));
+                }
+            }
             Change::Push if depth < DEEPEST => {
                 let top = *top;
                 stack.push(top);

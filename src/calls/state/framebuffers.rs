@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::State;
-use crate::calls::objects::{Attachment, Framebuffer, Id, Set};
+use crate::calls::objects::{Attachment, Framebuffer, Id, Set, is_none};
 use crate::calls::syntax::Call;
 
 impl State {
@@ -71,8 +71,12 @@ impl State {
                     self.draw_framebuffer.value.clone()
                 };
                 let buffers = call.args.last().map_or(&[][..], |arg| arg.items());
-                let none = buffers.iter().all(|buffer| is_none(buffer.word()));
-                self.framebuffer(&id).draw_buffers = Some(Set::at(line, none));
+                let chosen = buffers
+                    .iter()
+                    .take(16)
+                    .map(|buffer| buffer.word().to_owned())
+                    .collect();
+                self.framebuffer(&id).draw_buffers = Some(Set::at(line, chosen));
             }
             "glReadBuffer" | "glNamedFramebufferReadBuffer" | "glFramebufferReadBuffer" => {
                 let id = if direct {
@@ -136,9 +140,4 @@ impl State {
                 .insert(point.to_owned(), Set::at(line, what));
         }
     }
-}
-
-/// apitrace says GL_ZERO for GL_NONE.
-fn is_none(buffer: &str) -> bool {
-    matches!(buffer, "GL_NONE" | "GL_ZERO")
 }
