@@ -142,10 +142,9 @@ impl Frame {
             mask_off: mask.value.then_some(mask.line),
             depth: Set::at(nearer.line, 1.0 - nearer.value),
         };
-        if let Some(pass) = self
-            .passes
-            .last_mut()
-            .filter(|pass| pass.target.value == target)
+        let last = self.passes.last_mut();
+        if let Some(pass) =
+            last.filter(|pass| pass.target.value == target && pass.is_attached(state))
         {
             pass.late_clear = Some(clear.clone());
         }
@@ -164,10 +163,9 @@ impl Frame {
         self.draws += 1;
         self.last = line;
         let target = &state.draw_framebuffer;
-        let goes_on = self
-            .passes
-            .last()
-            .is_some_and(|pass| pass.target.value == target.value);
+        let last = self.passes.last();
+        let goes_on =
+            last.is_some_and(|pass| pass.target.value == target.value && pass.is_attached(state));
         if !goes_on {
             if self.passes.len() >= MOST_PASSES {
                 return;
@@ -203,6 +201,16 @@ impl Frame {
     }
 }
 
+impl Pass {
+    /// Whether its framebuffer still has what it was drawn into: each face of a cube is a pass of its own.
+    fn is_attached(&self, state: &State) -> bool {
+        let now = state.framebuffers.get(&self.target.value);
+        self.framebuffer.as_ref().is_none_or(|framebuffer| {
+            now.is_some_and(|now| now.attachments == framebuffer.attachments)
+        })
+    }
+}
+
 /// What did not change since the last draw call is shared with it.
 #[derive(Default)]
 pub struct Kept {
@@ -222,7 +230,7 @@ impl Kept {
             .map(|program| program.samplers())
             .unwrap_or_default();
         let reading = |sampler: Sampler| Reading {
-            texture: state.texture_at(sampler.unit.value),
+            texture: state.texture_at(sampler.unit.value, sampler.target()),
             bound: state.bound_at(sampler.unit.value),
             sampler,
         };

@@ -10,8 +10,8 @@ const MOST_UNIFORMS: usize = 4096;
 pub struct Source {
     /// By name.
     pub uniforms: BTreeMap<String, Uniform>,
-    /// One half is in it: the way from [−1,1] to [0,1] may be made here.
-    pub has_half: bool,
+    /// One half is in it twice at least: the way from [−1,1] to [0,1] may be made here. Once, it may be a shadow's grey.
+    pub has_halves: bool,
     /// The depth is the shader's own.
     pub writes_depth: bool,
     /// The samplers of which `.y`, `.z`, `.g` or `.b` is read.
@@ -37,7 +37,7 @@ impl Source {
         let text = without_comments(text);
         let words: Vec<&str> = words(&text);
         let mut source = Self {
-            has_half: words.iter().any(|word| is_half(word)),
+            has_halves: words.iter().filter(|word| is_half(word)).count() > 1,
             writes_depth: words.contains(&"gl_FragDepth"),
             ..Self::default()
         };
@@ -101,7 +101,7 @@ impl Source {
                 .or_insert_with(|| uniform.clone());
             known.is_used |= uniform.is_used;
         }
-        self.has_half |= other.has_half;
+        self.has_halves |= other.has_halves;
         self.writes_depth |= other.writes_depth;
         self.beyond_red.extend(other.beyond_red.iter().cloned());
     }
@@ -224,8 +224,9 @@ mod tests {
                 ("shadow_map", "sampler2DShadow", 3, false, false),
             ]
         );
-        assert!(source.has_half);
-        assert!(!Source::read("a = 1.5; b = 5; c = x.z;").has_half);
+        assert!(!source.has_halves);
+        assert!(Source::read("a = 0.5 * b + vec3(.50f);").has_halves);
+        assert!(!Source::read("a = 1.5; b = 5; c = 0.55 * x.z;").has_halves);
     }
 
     #[test]

@@ -25,6 +25,8 @@ impl<T> Set<T> {
 
 #[derive(Clone, Debug)]
 pub struct Texture {
+    /// As glCreateTextures has it.
+    pub target: Option<String>,
     /// Width, height and internal format of level 0.
     pub image: Option<Set<(i64, i64, String)>>,
     pub has_mipmaps: bool,
@@ -43,6 +45,7 @@ pub enum Parameter {
 impl Texture {
     pub fn new() -> Self {
         Self {
+            target: None,
             image: None,
             has_mipmaps: false,
             is_immutable: false,
@@ -101,7 +104,11 @@ pub struct Framebuffer {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attachment {
-    Texture(Id),
+    Texture {
+        id: Id,
+        /// Its face, level and layer, as the call has them.
+        part: String,
+    },
     Renderbuffer(Id),
 }
 
@@ -113,7 +120,7 @@ impl Framebuffer {
 
     pub fn depth_texture(&self) -> Option<&Id> {
         match &self.depth()?.value {
-            Attachment::Texture(id) => Some(id),
+            Attachment::Texture { id, .. } => Some(id),
             Attachment::Renderbuffer(_) => None,
         }
     }
@@ -146,7 +153,7 @@ impl Framebuffer {
 
     pub fn holds(&self, texture: &Id) -> bool {
         let mut attached = self.attachments.values();
-        attached.any(|at| matches!(&at.value, Attachment::Texture(id) if id == texture))
+        attached.any(|at| matches!(&at.value, Attachment::Texture { id, .. } if id == texture))
     }
 }
 
@@ -181,9 +188,31 @@ pub enum Value {
 #[derive(Clone, Debug)]
 pub struct Sampler {
     pub name: String,
-    /// Whether it compares; not known without the source.
-    pub is_shadow: Option<bool>,
+    /// As GLSL names its type; not known without the source.
+    pub kind: Option<String>,
     pub unit: Set<i64>,
+}
+
+impl Sampler {
+    /// Whether it compares.
+    pub fn is_shadow(&self) -> Option<bool> {
+        self.kind.as_ref().map(|kind| kind.contains("Shadow"))
+    }
+
+    /// The target of the textures that it reads.
+    pub fn target(&self) -> Option<&'static str> {
+        let kind = self.kind.as_ref()?;
+        let targets = [
+            ("Cube", "GL_TEXTURE_CUBE_MAP"),
+            ("2DArray", "GL_TEXTURE_2D_ARRAY"),
+            ("Rect", "GL_TEXTURE_RECTANGLE"),
+            ("2D", "GL_TEXTURE_2D"),
+        ];
+        targets
+            .iter()
+            .find(|(word, _)| kind.contains(word))
+            .map(|(_, target)| *target)
+    }
 }
 
 impl Program {
@@ -249,13 +278,25 @@ impl Program {
                         )
                 }
             };
-            if is_sampler {
-                let start = declared.map_or(0, |uniform| uniform.binding);
-                samplers.push(Sampler {
-                    name: name.value.clone(),
-                    is_shadow: declared.map(|uniform| uniform.kind.contains("Shadow")),
-                    unit: self.unit(*location).unwrap_or(Set::at(0, start)),
-                });
+            if !is_sampler {
+                continue;
+            }
+            let start = Set::at(0, declared.map_or(0, |uniform| uniform.binding));
+            let sampler = |name: String, unit: Set<i64>| Sampler {
+                name,
+                kind: declared.map(|uniform| uniform.kind.clone()),
+                unit,
+            };
+            let unit = self.unit(*location).unwrap_or(start);
+            samplers.push(sampler(name.value.clone(), unit));
+            // The elements of an array that glUniform1iv set.
+            for place in 1.. {
+                let next = location + place;
+                let Some(unit) = self.unit(next).filter(|_| !self.names.contains_key(&next)) else {
+                    break;
+                };
+                let base = name.value.split('[').next().unwrap_or_default();
+                samplers.push(sampler(format!("{base}[{place}]"), unit));
             }
         }
         // Those that nobody asked for.
@@ -263,12 +304,12 @@ impl Program {
             let known = samplers
                 .iter()
                 .any(|sampler| sampler.name.split('[').next() == Some(name.as_str()));
-            if uniform.is_sampler() && uniform.is_used && !known && !self.missing.contains_key(name)
-            {
+            let is_missing = self.missing.contains_key(name);
+            if uniform.is_sampler() && uniform.is_used && !known && !is_missing {
                 let set = uniform.location.and_then(|location| self.unit(location));
                 samplers.push(Sampler {
                     name: name.clone(),
-                    is_shadow: Some(uniform.kind.contains("Shadow")),
+                    kind: Some(uniform.kind.clone()),
                     unit: set.unwrap_or(Set::at(0, uniform.binding)),
                 });
             }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::judge::Fault;
 use crate::mistakes;
 
 /// A step of the handout, and what the dump has of it.
@@ -16,8 +17,8 @@ pub struct Step {
     pub line: Option<u64>,
     pub found: String,
     /// What it does to the picture, where something is wrong.
-    pub effect: String,
-    pub fix: String,
+    pub effect: &'static str,
+    pub fix: &'static str,
     /// As `--mistake` and `shadowlab mistakes` name it.
     pub mistake: Option<&'static str>,
 }
@@ -124,7 +125,7 @@ impl Report {
                 step.found
             );
             if step.mark != Mark::Found {
-                for (word, told) in [("picture", &step.effect), ("mend", &step.fix)] {
+                for (word, told) in [("picture", step.effect), ("mend", step.fix)] {
                     if !told.is_empty() {
                         let _ = writeln!(text, "      {word}: {told}");
                     }
@@ -167,24 +168,23 @@ impl Steps {
             .find(|known| known.name == mistake)
             .expect("a mistake that is told is in the table");
         let step = self.add(step, mark, line, found);
-        step.effect = known.symptom.to_owned();
-        step.fix = known.fix.to_owned();
+        step.effect = known.symptom;
+        step.fix = known.fix;
         step.mistake = Some(known.name);
     }
 
     /// What is wrong besides the classic mistakes.
-    pub fn other(
+    pub fn fault(
         &mut self,
         step: Asked,
         mark: Mark,
         line: u64,
         found: impl Into<String>,
-        effect: &str,
-        fix: &str,
+        fault: &Fault,
     ) {
         let step = self.add(step, mark, line, found);
-        step.effect = effect.to_owned();
-        step.fix = fix.to_owned();
+        step.effect = fault.effect;
+        step.fix = fault.fix;
     }
 
     fn add(
@@ -200,8 +200,8 @@ impl Steps {
             mark,
             line: (line > 0).then_some(line),
             found: found.into(),
-            effect: String::new(),
-            fix: String::new(),
+            effect: "",
+            fix: "",
             mistake: None,
         });
         self.all.last_mut().expect("one was pushed")

@@ -82,12 +82,14 @@ static const char *lighting_vert =
     "#version 330\n"
     "in vec4 position; uniform mat4 persp_matrix, view_matrix, model_matrix;\n"
     "uniform mat4 shadow_persp_matrix, shadow_view_matrix; out vec4 vshadow_position;\n"
+#ifdef MISTAKE_bias_matrix_missing
+    "void main() {\n"
+    "    gl_Position = persp_matrix * view_matrix * model_matrix * position;\n"
+    "    vshadow_position = shadow_persp_matrix * shadow_view_matrix * model_matrix * position;\n"
+#else
     "const mat4 B = mat4(0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1);\n"
     "void main() {\n"
     "    gl_Position = persp_matrix * view_matrix * model_matrix * position;\n"
-#ifdef MISTAKE_bias_matrix_missing
-    "    vshadow_position = shadow_persp_matrix * shadow_view_matrix * model_matrix * position;\n"
-#else
     "    vshadow_position = B * shadow_persp_matrix * shadow_view_matrix * model_matrix * position;\n"
 #endif
     "}\n";

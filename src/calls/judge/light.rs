@@ -1,5 +1,6 @@
 //! The light's camera, and the way from a point to its texel.
 
+use super::faults::OTHER_LIGHT;
 use super::{Map, Second};
 use crate::calls::frame::Draw;
 use crate::calls::handouts::Handout;
@@ -45,22 +46,31 @@ pub fn judge(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second) {
 
 fn relation(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second, found: &Relations) {
     let step = (handout.matrix, "B · projection · view · model of the light");
-    let has_half = second.draws.iter().find_map(|draw| {
+    let has_halves = second.draws.iter().find_map(|draw| {
         let source = draw.program.as_ref()?.source.as_ref()?;
-        Some(source.has_half)
+        Some(source.has_halves)
     });
     let other = Mark::OtherArguments;
     match &found.found {
         Some((relation, matrix)) => {
             let (line, name) = (matrix.line, called(&matrix.name));
             match relation {
-                Relation::WithBias => steps.found(step, line, format!("{name} is B times the first pass's")),
-                Relation::Plain if has_half == Some(false) || has_half.is_none() && handout.bias_in_program => {
+                Relation::WithBias => {
+                    steps.found(step, line, format!("{name} is B times the first pass's"))
+                }
+                Relation::Plain
+                    if has_halves == Some(false)
+                        || has_halves.is_none() && handout.bias_in_program =>
+                {
                     let told = format!("{name} is the first pass's, without B");
                     steps.mistake(step, Mark::Missing, line, "bias_matrix_missing", told);
                 }
                 Relation::Plain => {
-                    steps.found(step, line, format!("{name} is the first pass's, and B is the shader's"));
+                    steps.found(
+                        step,
+                        line,
+                        format!("{name} is the first pass's, and B is the shader's"),
+                    );
                 }
                 Relation::Twice => {
                     let told = format!("{name} is B·B times the first pass's");
@@ -77,14 +87,11 @@ fn relation(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second, fo
             }
         }
         None if found.differs.is_some() => {}
-        None => steps.other(
-            step,
-            Mark::Unclear,
-            0,
-            "no product of the second pass's matrices is the first pass's: they are set by no call that is seen, or made in the shader, or another light's",
-            "where they are another light's, shadows are out of place",
-            "",
-        ),
+        None => {
+            let told = "no product of the second pass's matrices is the first pass's: the shader \
+                        makes it, or no call that is seen, or it is another light's";
+            steps.fault(step, Mark::Unclear, 0, told, &OTHER_LIGHT);
+        }
     }
     let step = (handout.first_pass, "the same model matrix in both passes");
     if let Some((first, second)) = found.differs {

@@ -1,5 +1,7 @@
 //! A picture's calls, and those of the start-up, held against a handout.
 
+mod faults;
+mod first_pass;
 mod light;
 mod map;
 mod picture;
@@ -8,6 +10,8 @@ mod soft;
 mod uniforms;
 
 use std::rc::Rc;
+
+pub use faults::Fault;
 
 use super::frame::{Draw, Frame, Pass};
 use super::handouts::{self, Handout};
@@ -68,7 +72,7 @@ fn shadow_maps(steps: &mut Steps, handout: &Handout, frame: &Frame, old: &[Pass]
     for map in &used {
         let second = second_pass(frame, map, &used);
         map::set_up(steps, handout, map, &second, state);
-        map::first_pass(steps, handout, map, frame, state);
+        first_pass::judge(steps, handout, map, &second, frame);
         picture::restored(steps, handout, map, &second, state);
         picture::cleared(steps, handout, &second, frame);
         picture::samplers(steps, handout, map, &second);
@@ -196,7 +200,7 @@ fn second_pass<'a>(frame: &'a Frame, map: &Map, maps: &[Map]) -> Second<'a> {
 /// As its name or its type says.
 fn is_for_a_map(sampler: &super::objects::Sampler) -> bool {
     let name = sampler.name.to_lowercase();
-    sampler.is_shadow == Some(true)
+    sampler.is_shadow() == Some(true)
         || ["shadow", "depth", "map"]
             .iter()
             .any(|word| name.contains(word))

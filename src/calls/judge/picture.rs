@@ -1,9 +1,13 @@
 //! The second pass: the window is drawn to again, and the shader finds the map.
 
+use super::faults::{
+    ATTACHED, CULLING, DEPTH_NOT_CLEARED, NOT_BOUND, NOT_RESTORED, NOT_TOLD, NOTHING_READS,
+    WINDOW_GETS_NO_COLOR,
+};
 use super::{Map, Second, is_for_a_map};
-use crate::calls::frame::{Frame, Reading, StepKind};
+use crate::calls::frame::{Draw, Frame, Reading, StepKind};
 use crate::calls::handouts::Handout;
-use crate::calls::report::{Mark, Steps};
+use crate::calls::report::{Asked, Mark, Steps};
 use crate::calls::state::State;
 
 /// What the first pass changed, and the second pass needs otherwise.
@@ -14,85 +18,114 @@ pub fn restored(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second
     );
     let into_map = &map.pass.target;
     let (Some(pass), Some(first)) = (second.pass, second.draws.first()) else {
-        return steps.other(
-            step,
-            Mark::Missing,
-            into_map.line,
-            format!("everything is drawn into framebuffer {}", into_map.value),
-            "the window stays as it was cleared, or empty",
-            "bind framebuffer 0 before the second pass",
-        );
+        let told = format!("everything is drawn into framebuffer {}", into_map.value);
+        return steps.fault(step, Mark::Missing, into_map.line, told, &NOT_RESTORED);
     };
     if second.attached {
-        let found = format!(
-            "line {} reads texture {} while it is attached to framebuffer {}, which is drawn to",
+        let told = format!(
+            "line {} reads texture {}, and draws into framebuffer {}, to which it is attached",
             first.line, map.id, pass.target.value
         );
-        return steps.other(
+        return steps.fault(step, Mark::Missing, into_map.line, told, &ATTACHED);
+    }
+    let is_window = pass.target.value == "0";
+    let told = match is_window {
+        true => "it is".to_owned(),
+        false => format!(
+            "framebuffer {}, with a picture of its own",
+            pass.target.value
+        ),
+    };
+    steps.found(step, pass.target.line, told);
+    let window = state
+        .framebuffers
+        .get("0")
+        .filter(|window| is_window && window.draws_no_color());
+    if let Some(chosen) = window.and_then(|window| window.draw_buffers.as_ref()) {
+        let step = (
+            handout.second_pass,
+            "glDrawBuffer(GL_NONE) for the map alone",
+        );
+        let told = "framebuffer 0 was bound when it was called";
+        steps.fault(
             step,
-            Mark::Missing,
-            into_map.line,
-            found,
-            "the window stays empty; what is read from a texture that is drawn to is undefined",
-            "bind framebuffer 0 before the second pass",
+            Mark::OutOfOrder,
+            chosen.line,
+            told,
+            &WINDOW_GETS_NO_COLOR,
         );
     }
-    steps.found(
-        step,
-        pass.target.line,
-        match pass.target.value.as_str() {
-            "0" => "it is".to_owned(),
-            other => format!("framebuffer {other}, with a picture of its own"),
-        },
-    );
-
+    let window = state.window.filter(|_| is_window);
     let step = (handout.second_pass, "glViewport, with the window's size");
-    let (viewport, of_map) = (
-        &first.pipeline.viewport,
-        map.pass.draws.first().map(|draw| &draw.pipeline.viewport),
+    viewport(steps, step, map, first, window);
+    culling(
+        steps,
+        (handout.acne, "glCullFace(GL_BACK) behind the first pass"),
+        map,
+        second,
     );
+}
+
+fn viewport(steps: &mut Steps, step: Asked, map: &Map, first: &Draw, window: Option<(i64, i64)>) {
+    let viewport = &first.pipeline.viewport;
     let [_, _, w, h] = viewport.value;
-    let is_maps = map.texture.size() == Some((w, h))
-        && of_map.is_some_and(|of_map| of_map.line == viewport.line);
-    if is_maps && state.window != Some((w, h)) {
-        steps.mistake(
+    let of_map = map
+        .pass
+        .draws
+        .first()
+        .map(|draw| draw.pipeline.viewport.line);
+    let is_maps = map.texture.size() == Some((w, h)) && of_map == Some(viewport.line);
+    if is_maps && window != Some((w, h)) {
+        let told = format!("it is still the map's, {w}×{h}");
+        return steps.mistake(
             step,
             Mark::Missing,
             viewport.line,
             "viewport_not_restored",
-            format!("it is still the map's, {w}×{h}"),
+            told,
         );
-    } else if let Some((width, height)) = state
-        .window
-        .filter(|window| *window != (w, h) && pass.target.value == "0")
-    {
-        steps.mistake(
-            step,
-            Mark::Unclear,
-            viewport.line,
-            "viewport_not_restored",
-            format!("it is {w}×{h}, and the window was made with {width}×{height}"),
-        );
-    } else {
-        steps.found(step, viewport.line, format!("{w}×{h}"));
     }
+    match window.filter(|window| *window != (w, h)) {
+        // A window may have grown, and a picture may be drawn in parts.
+        Some((width, height)) => {
+            let told = format!("it is {w}×{h}, and the window was made with {width}×{height}");
+            steps.mistake(
+                step,
+                Mark::Unclear,
+                viewport.line,
+                "viewport_not_restored",
+                told,
+            );
+        }
+        None => steps.found(step, viewport.line, format!("{w}×{h}")),
+    }
+}
 
-    // A first pass that culls front faces leaves that behind.
-    let culls = |draw: &crate::calls::frame::Draw| {
+/// A first pass that culls front faces leaves that behind.
+fn culling(steps: &mut Steps, step: Asked, map: &Map, second: &Second) {
+    let culls = |draw: &Draw| {
         draw.pipeline.is_on("GL_CULL_FACE") && draw.pipeline.cull_face.value == "GL_FRONT"
     };
-    if map.pass.draws.iter().any(culls) {
-        let step = (handout.acne, "glCullFace(GL_BACK) behind the first pass");
-        match second.draws.iter().find(|draw| culls(draw)) {
-            Some(draw) => steps.other(
+    if !map.pass.draws.iter().any(culls) {
+        return;
+    }
+    match second.draws.iter().find(|draw| culls(draw)) {
+        Some(draw) => {
+            let told = "front faces are culled in the second pass, too";
+            steps.fault(
                 step,
                 Mark::Missing,
                 draw.pipeline.cull_face.line,
-                "front faces are culled in the second pass, too",
-                "objects are seen from inside",
-                "reset the culling face",
-            ),
-            None => steps.found(step, first.pipeline.cull_face.line, "it is reset"),
+                told,
+                &CULLING,
+            );
+        }
+        None => {
+            let line = second
+                .draws
+                .first()
+                .map_or(0, |draw| draw.pipeline.cull_face.line);
+            steps.found(step, line, "it is reset");
         }
     }
 }
@@ -105,26 +138,20 @@ pub fn cleared(steps: &mut Steps, handout: &Handout, second: &Second, frame: &Fr
         handout.second_pass,
         "glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT)",
     );
-    let clears = frame.steps.iter().filter(|step| {
-        matches!(&step.what, StepKind::Clear { target, depth: true, .. } if *target == pass.target.value)
+    let into = &pass.target;
+    let first = second.draws[0].line;
+    let clear = frame.steps.iter().rev().find(|step| {
+        let StepKind::Clear { target, depth, .. } = &step.what else {
+            return false;
+        };
+        step.line < first && *depth && *target == into.value
     });
-    let before: Vec<u64> = clears
-        .map(|step| step.line)
-        .filter(|line| *line < second.draws[0].line)
-        .collect();
-    match before.last() {
-        Some(line) => steps.found(step, *line, "it is"),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            pass.target.line,
-            format!(
-                "the depth of framebuffer {} is not cleared",
-                pass.target.value
-            ),
-            "of the frames behind the first one little or nothing is seen",
-            "clear color and depth before the second pass",
-        ),
+    match clear {
+        Some(clear) => steps.found(step, clear.line, "it is"),
+        None => {
+            let told = format!("the depth of framebuffer {} is not cleared", into.value);
+            steps.fault(step, Mark::Missing, into.line, told, &DEPTH_NOT_CLEARED);
+        }
     }
 }
 
@@ -137,92 +164,82 @@ pub fn samplers(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second
     let Some(first) = second.draws.first() else {
         return;
     };
-    if second.reads {
-        let Some(reading) = first.reads(map.id) else {
-            return;
-        };
-        let Some((bound, _)) = &reading.texture else {
-            return;
-        };
-        let unit = reading.sampler.unit.value;
+    if let Some(reading) = first.reads(map.id) {
+        let line = reading.texture.as_ref().map_or(0, |(bound, _)| bound.line);
+        let (unit, name) = (reading.sampler.unit.value, &reading.sampler.name);
         steps.found(
             step,
-            bound.line,
-            format!(
-                "texture {} on unit {unit}, read by {}",
-                map.id, reading.sampler.name
-            ),
+            line,
+            format!("texture {} on unit {unit}, read by {name}", map.id),
         );
-        let elsewhere = second
-            .draws
-            .iter()
-            .filter(|draw| draw.reads(map.id).is_none())
-            .count();
-        if elsewhere > 0 {
-            steps.other(
-                step,
-                Mark::Unclear,
-                0,
-                format!("{elsewhere} draw calls of the same program read another texture there"),
-                "",
-                "",
-            );
-        }
+        let (program, sampler) = (first.program.as_ref().map(|program| &program.id), name);
+        others(steps, step, map, second, program, sampler);
     }
     shared_unit(steps, handout, map, second);
-    if second.reads {
-        return;
+    if !second.reads {
+        unread(steps, step, map, first);
     }
+}
 
-    // Nothing reads the map. Where is it bound, and where does its sampler look?
-    let bound = first.units.iter().find(|(_, set)| set.value == *map.id);
-    let wanted = first
+/// Draw calls between those that read the map for which another texture is in its place.
+fn others(
+    steps: &mut Steps,
+    step: Asked,
+    map: &Map,
+    second: &Second,
+    program: Option<&String>,
+    sampler: &str,
+) {
+    let Some(pass) = second.pass else { return };
+    let other = pass.draws.iter().find(|draw| {
+        let same = draw.program.as_ref().map(|program| &program.id) == program;
+        same && draw.reads(map.id).is_none()
+            && draw
+                .samplers
+                .iter()
+                .any(|reading| reading.sampler.name == sampler)
+    });
+    if let Some(draw) = other {
+        let told = format!(
+            "line {} draws with the same program and another texture there",
+            draw.line
+        );
+        steps.fault(step, Mark::Unclear, draw.line, told, &NOT_TOLD);
+    }
+}
+
+/// Nothing reads the map. Where is it bound, and where does its sampler look?
+fn unread(steps: &mut Steps, step: Asked, map: &Map, first: &Draw) {
+    let of_a_map = first
         .samplers
         .iter()
-        .find(|reading| is_for_a_map(&reading.sampler))
-        .or(first.samplers.last());
-    match (bound, wanted) {
-        (_, None) => steps.other(
-            step,
-            Mark::Missing,
-            first.line,
-            format!("no shader of the second pass reads texture {}", map.id),
-            "there are no shadows",
-            "select the lighting program, and give it a sampler for the map",
-        ),
-        (Some((unit, set)), Some(reading)) => {
-            let sampler = &reading.sampler;
-            let how = if sampler.unit.line == 0 {
-                "was never set in its program, and so reads"
-            } else {
-                "reads"
-            };
-            steps.mistake(
-                step,
-                Mark::OtherArguments,
-                if sampler.unit.line == 0 {
-                    set.line
-                } else {
-                    sampler.unit.line
-                },
-                "same_texture_unit",
-                format!(
-                    "the texture is on unit {unit}, and {} {how} unit {}",
-                    sampler.name, sampler.unit.value
-                ),
-            );
-        }
-        (None, Some(reading)) => {
-            let there = reading
-                .texture
-                .as_ref()
-                .map_or("nothing".to_owned(), |(id, _)| {
-                    format!("texture {}", id.value)
-                });
-            steps.other(step, Mark::Missing, reading.bound, format!("texture {} is bound to no unit; on unit {}, which {} reads, there is {there}", map.id, reading.sampler.unit.value, reading.sampler.name),
-                "no shadow, or shadows that follow another texture", "glActiveTexture with the sampler's unit, then glBindTexture with the depth texture");
-        }
-    }
+        .find(|reading| is_for_a_map(&reading.sampler));
+    let Some(reading) = of_a_map.or(first.samplers.last()) else {
+        let told = format!("no shader of the second pass reads texture {}", map.id);
+        return steps.fault(step, Mark::Missing, first.line, told, &NOTHING_READS);
+    };
+    let (name, unit) = (&reading.sampler.name, &reading.sampler.unit);
+    let bound = first.units.iter().find(|(_, set)| set.value == *map.id);
+    let Some((at, set)) = bound else {
+        let there = match &reading.texture {
+            Some((id, _)) => format!("texture {}", id.value),
+            None => "nothing".to_owned(),
+        };
+        let told = format!(
+            "texture {} is bound to no unit; on unit {}, which {name} reads, there is {there}",
+            map.id, unit.value
+        );
+        return steps.fault(step, Mark::Missing, reading.bound, told, &NOT_BOUND);
+    };
+    let (line, reads) = match unit.line {
+        0 => (set.line, "was never set in its program, and so reads"),
+        line => (line, "reads"),
+    };
+    let told = format!(
+        "the texture is on unit {at}, and {name} {reads} unit {}",
+        unit.value
+    );
+    steps.mistake(step, Mark::OtherArguments, line, "same_texture_unit", told);
 }
 
 /// Two samplers that should read two textures.
@@ -240,32 +257,23 @@ fn shared_unit(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second)
     };
     for draw in &second.draws {
         for (place, a) in draw.samplers.iter().enumerate() {
-            for b in &draw.samplers[place + 1..] {
-                if a.sampler.unit.value == b.sampler.unit.value && (concerns(a) || concerns(b)) {
-                    let [a, b] = [&a.sampler, &b.sampler];
-                    return steps.mistake(
-                        step,
-                        Mark::Wrong,
-                        a.unit.line.max(b.unit.line),
-                        "same_texture_unit",
-                        format!("{} and {} both read unit {}", a.name, b.name, a.unit.value),
-                    );
-                }
+            let shares = draw.samplers[place + 1..].iter().find(|b| {
+                a.sampler.unit.value == b.sampler.unit.value && (concerns(a) || concerns(b))
+            });
+            if let Some(b) = shares {
+                let [a, b] = [&a.sampler, &b.sampler];
+                let line = a.unit.line.max(b.unit.line);
+                let told = format!("{} and {} both read unit {}", a.name, b.name, a.unit.value);
+                return steps.mistake(step, Mark::Wrong, line, "same_texture_unit", told);
             }
         }
     }
-    let several = second.draws.iter().find(|draw| draw.samplers.len() > 1);
-    if let Some(draw) = several {
-        let units: Vec<_> = draw
-            .samplers
-            .iter()
-            .map(|reading| format!("{} {}", reading.sampler.name, reading.sampler.unit.value))
+    if let Some(draw) = second.draws.iter().find(|draw| draw.samplers.len() > 1) {
+        let samplers = draw.samplers.iter().map(|reading| &reading.sampler);
+        let line = samplers.clone().map(|sampler| sampler.unit.line).max();
+        let units: Vec<_> = samplers
+            .map(|sampler| format!("{} {}", sampler.name, sampler.unit.value))
             .collect();
-        let line = draw
-            .samplers
-            .iter()
-            .map(|reading| reading.sampler.unit.line)
-            .max();
         steps.found(step, line.unwrap_or(0), units.join(", "));
     }
 }

@@ -4,6 +4,9 @@
 
 use glam::{DMat4, DVec4};
 
+use super::faults::{
+    CLIPPING_OFF, NO_PROJECTION, NOT_CLIPPED, NOT_TOLD, STENCIL_NOT_CLEARED, STENCIL_NOT_FILLED,
+};
 use super::soft;
 use super::uniforms;
 use crate::calls::frame::{Draw, Frame, StepKind};
@@ -36,17 +39,30 @@ pub fn judge(steps: &mut Steps, frame: &Frame, state: &State) {
     );
     match (shadows.first(), draws.last()) {
         (Some(first), _) => {
-            steps.found(step, first.draw.line, format!("{} draw calls", shadows.len()));
+            steps.found(
+                step,
+                first.draw.line,
+                format!("{} draw calls", shadows.len()),
+            );
             shadow_matrix(steps, &shadows);
             offset(steps, &shadows);
             color(steps, &shadows);
             clipped(steps, &draws, &shadows, frame);
         }
-        (None, Some(last)) if last.program.is_some() => steps.other(step, Mark::Unclear, 0,
-            "no matrix of the frame does: the shader may, or the shadows are switched off", "", ""),
-        (None, last) => steps.other(step, Mark::Missing, last.map_or(0, |draw| draw.line),
-            "no matrix of the frame does", "there is no shadow",
-            "multiply the modelview matrix by (plane·light)·I − light⊗plane before the occluders are drawn"),
+        (None, Some(last)) if last.program.is_some() => {
+            let told = "no matrix of the frame does: the shader may, or the shadows are off";
+            steps.fault(step, Mark::Unclear, 0, told, &NOT_TOLD);
+        }
+        (None, last) => {
+            let line = last.map_or(0, |draw| draw.line);
+            steps.fault(
+                step,
+                Mark::Missing,
+                line,
+                "no matrix of the frame does",
+                &NO_PROJECTION,
+            );
+        }
     }
     soft::judge(steps, frame, state);
     uniforms::slips(steps, HARD, state);
@@ -81,23 +97,21 @@ fn shadow_matrix(steps: &mut Steps, shadows: &[Shadow]) {
         .iter()
         .find(|shadow| shadow.is_alone && trace(shadow.matrix) < 0.0);
     if let Some(shadow) = turned {
+        let told = "the light is behind the wall's plane: every shadow has a negative w";
+        return steps.mistake(step, Mark::OtherArguments, shadow.line, "plane_sign", told);
+    }
+    let line = shadows[0].line;
+    if is_transposed(shadows) {
+        let told = "it is transposed: light and plane stand in each other's place";
         return steps.mistake(
             step,
             Mark::OtherArguments,
-            shadow.line,
-            "plane_sign",
-            "the light is behind the wall's plane: every shadow has a negative w",
+            line,
+            "shadow_matrix_row_major",
+            told,
         );
     }
-    if is_transposed(shadows) {
-        return steps.mistake(step, Mark::OtherArguments, shadows[0].line, "shadow_matrix_row_major",
-            "the wall's plane stands where the light should, and the light where the plane should: it is transposed");
-    }
-    steps.found(
-        step,
-        shadows[0].line,
-        "it projects from the light onto the wall",
-    );
+    steps.found(step, line, "it projects from the light onto the wall");
 }
 
 fn trace(m: DMat4) -> f64 {
@@ -137,37 +151,29 @@ fn offset(steps: &mut Steps, shadows: &[Shadow]) {
         return steps.found(step, line, format!("({factor}, {units})"));
     }
     if !pipeline.is_on("GL_DEPTH_TEST") {
-        return steps.found(
-            step,
-            pipeline.line_of("GL_DEPTH_TEST"),
-            "not needed: the depth test is off",
-        );
+        let line = pipeline.line_of("GL_DEPTH_TEST");
+        return steps.found(step, line, "not needed: the depth test is off");
     }
     let source = first
         .program
         .as_ref()
         .map(|program| program.source.as_ref());
     match source {
-        Some(Some(source)) if source.writes_depth => steps.found(
-            step,
-            first.used,
-            "not needed: the shader writes its own depth",
-        ),
-        Some(None) => steps.other(
-            step,
-            Mark::Unclear,
-            first.line,
-            "there is none; right, where the shader writes the wall's depth",
-            "",
-            "",
-        ),
-        _ => steps.mistake(
-            step,
-            Mark::Missing,
-            first.line,
-            "no_polygon_offset",
-            "it is off when the shadows are drawn",
-        ),
+        Some(Some(source)) if source.writes_depth => {
+            steps.found(
+                step,
+                first.used,
+                "not needed: the shader writes its own depth",
+            );
+        }
+        Some(None) => {
+            let told = "there is none; right, where the shader writes the wall's depth";
+            steps.fault(step, Mark::Unclear, first.line, told, &NOT_TOLD);
+        }
+        _ => {
+            let told = "it is off when the shadows are drawn";
+            steps.mistake(step, Mark::Missing, first.line, "no_polygon_offset", told);
+        }
     }
 }
 
@@ -179,24 +185,27 @@ fn color(steps: &mut Steps, shadows: &[Shadow]) {
     };
     let step = (HARD, "the shadow's color is set");
     for (location, name) in &program.names {
-        let starts = program
-            .declared(&name.value)
-            .is_some_and(|uniform| uniform.has_value);
+        let declared = program.declared(&name.value);
+        let starts = declared.is_some_and(|uniform| uniform.has_value);
         if !name.value.to_lowercase().contains("color") || starts {
             continue;
         }
         match program.values.get(location) {
             Some(set) => steps.found(step, set.line, name.value.clone()),
-            None => steps.mistake(
-                step,
-                Mark::Missing,
-                name.line,
-                "shadow_color_never_set",
-                format!(
-                    "{} is never set before line {} draws with it",
-                    name.value, first.line
-                ),
-            ),
+            None => {
+                let drawn = first.line;
+                let told = format!(
+                    "{} is never set before line {drawn} draws with it",
+                    name.value
+                );
+                steps.mistake(
+                    step,
+                    Mark::Missing,
+                    name.line,
+                    "shadow_color_never_set",
+                    told,
+                );
+            }
         }
     }
 }
@@ -204,17 +213,10 @@ fn color(steps: &mut Steps, shadows: &[Shadow]) {
 /// The three steps that fill the stencil buffer, and the test behind them.
 fn clipped(steps: &mut Steps, draws: &[&Draw], shadows: &[Shadow], frame: &Frame) {
     let step = (CLIPPED, "shadows drawn where the stencil is 1 alone");
-    let beyond = "shadows go on past the edges of the wall";
     let first = shadows[0].draw;
     if !first.pipeline.is_on("GL_STENCIL_TEST") {
-        return steps.other(
-            step,
-            Mark::Unclear,
-            0,
-            "the stencil test is off in this frame",
-            beyond,
-            "the key c of the handout's program switches it on",
-        );
+        let told = "the stencil test is off in this frame";
+        return steps.fault(step, Mark::Unclear, 0, told, &CLIPPING_OFF);
     }
     let (function, reference) = &first.pipeline.stencil.value;
     let line = first.pipeline.stencil.line;
@@ -226,66 +228,45 @@ fn clipped(steps: &mut Steps, draws: &[&Draw], shadows: &[Shadow], frame: &Frame
         );
     } else {
         let told = format!("it is glStencilFunc({function}, {reference}, …) when they are drawn");
-        steps.other(
-            step,
-            Mark::OtherArguments,
-            line,
-            told,
-            beyond,
-            "glStencilFunc(GL_EQUAL, 1, …) behind the wall",
-        );
+        steps.fault(step, Mark::OtherArguments, line, told, &NOT_CLIPPED);
     }
 
     let step = (CLIPPED, "the stencil is set to 1 while the wall is drawn");
+    let always = ("GL_ALWAYS".to_owned(), *reference);
     let wall = draws.iter().find(|draw| {
-        let always = draw.pipeline.stencil.value == ("GL_ALWAYS".to_owned(), *reference);
-        draw.line < first.line && draw.pipeline.is_on("GL_STENCIL_TEST") && always
+        let is_before = draw.line < first.line && draw.pipeline.is_on("GL_STENCIL_TEST");
+        is_before && draw.pipeline.stencil.value == always
     });
-    let lost = "the stencil is 1 nowhere, and so there are no shadows";
-    match wall {
-        Some(wall) if wall.pipeline.stencil_pass.value == "GL_REPLACE" => {
-            steps.found(
+    match wall.map(|wall| &wall.pipeline.stencil_pass) {
+        Some(pass) if pass.value == "GL_REPLACE" => {
+            let told = "glStencilFunc(GL_ALWAYS, …) and glStencilOp(…, GL_REPLACE)";
+            steps.found(step, pass.line, told);
+        }
+        Some(pass) => {
+            let told = format!("where the tests pass, glStencilOp says {}", pass.value);
+            steps.fault(
                 step,
-                wall.pipeline.stencil_pass.line,
-                "glStencilFunc(GL_ALWAYS, …) and glStencilOp(…, GL_REPLACE)",
+                Mark::OtherArguments,
+                pass.line,
+                told,
+                &STENCIL_NOT_FILLED,
             );
         }
-        Some(wall) => steps.other(
-            step,
-            Mark::OtherArguments,
-            wall.pipeline.stencil_pass.line,
-            format!(
-                "where the tests pass, glStencilOp says {}",
-                wall.pipeline.stencil_pass.value
-            ),
-            lost,
-            "glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE)",
-        ),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            first.line,
-            format!(
-                "nothing is drawn with glStencilFunc(GL_ALWAYS, {reference}, …) before the shadows"
-            ),
-            lost,
-            "glStencilFunc(GL_ALWAYS, 1, …) before the wall is drawn",
-        ),
+        None => {
+            let told = "nothing is drawn with glStencilFunc(GL_ALWAYS, …) before the shadows";
+            steps.fault(step, Mark::Missing, first.line, told, &STENCIL_NOT_FILLED);
+        }
     }
 
     let step = (CLIPPED, "the stencil buffer is cleared in each frame");
     let clear = frame.steps.iter().find(|step| {
-        matches!(step.what, StepKind::Clear { stencil: true, .. }) && step.line < first.line
+        step.line < first.line && matches!(step.what, StepKind::Clear { stencil: true, .. })
     });
     match clear {
         Some(clear) => steps.found(step, clear.line, "it is"),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            0,
-            "GL_STENCIL_BUFFER_BIT is in no glClear before them",
-            "of a wall that is hidden or moves the shadows stay",
-            "glClear(… | GL_STENCIL_BUFFER_BIT)",
-        ),
+        None => {
+            let told = "GL_STENCIL_BUFFER_BIT is in no glClear before them";
+            steps.fault(step, Mark::Missing, 0, told, &STENCIL_NOT_CLEARED);
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! Soft shadows: pictures with the light at different places, averaged in an accumulation buffer of either kind.
 
-use crate::calls::frame::{Draw, Frame, Pass, StepKind};
+use super::faults::{BANDS, GHOSTS, HARD, NOT_RETURNED, SUM_THEN_DIVIDE};
+use crate::calls::frame::{Draw, Frame, Pass, Step, StepKind};
 use crate::calls::handouts::{FBO, SOFT};
-use crate::calls::objects::{Attachment, Id};
+use crate::calls::objects::Attachment;
 use crate::calls::report::{Asked, Mark, Steps};
 use crate::calls::state::State;
 
@@ -10,92 +11,61 @@ use crate::calls::state::State;
 const TOLERANCE: f64 = 0.011;
 
 pub fn judge(steps: &mut Steps, frame: &Frame, state: &State) {
-    let old: Vec<(u64, &str, f64)> = frame
-        .steps
-        .iter()
-        .filter_map(|step| match &step.what {
-            StepKind::Accumulate { operation, value } => {
-                Some((step.line, operation.as_str(), *value))
-            }
-            _ => None,
-        })
-        .collect();
-    let blended = |draw: &&Draw| {
-        draw.pipeline.is_on("GL_BLEND") && draw.pipeline.blend.value[0] == "GL_CONSTANT_ALPHA"
-    };
-    let mut sums: Vec<(&Pass, &Draw)> = Vec::new();
+    let accumulated = frame.steps.iter().filter_map(|step| match &step.what {
+        StepKind::Accumulate { operation, value } => Some((step.line, operation.as_str(), *value)),
+        _ => None,
+    });
+    let accumulated: Vec<(u64, &str, f64)> = accumulated.collect();
+    let mut blended: Vec<(&Pass, &Draw)> = Vec::new();
     for pass in &frame.passes {
-        sums.extend(pass.draws.iter().filter(blended).map(|draw| (pass, draw)));
+        let adds = |draw: &&Draw| {
+            let pipeline = &draw.pipeline;
+            pipeline.is_on("GL_BLEND") && pipeline.blend.value[0] == "GL_CONSTANT_ALPHA"
+        };
+        blended.extend(pass.draws.iter().filter(adds).map(|draw| (pass, draw)));
     }
-    if !old.is_empty() {
-        accumulation_buffer(steps, &old, frame);
-    } else if let Some((pass, _)) = sums.first() {
-        framebuffer_object(steps, &sums, pass, frame, state);
+    if !accumulated.is_empty() {
+        accumulation_buffer(steps, &accumulated, frame);
+    } else if !blended.is_empty() {
+        framebuffer_object(steps, &blended, frame, state);
     } else {
-        steps.other(
-            (SOFT, "the scene is drawn several times and averaged"),
+        let step = (SOFT, "the scene is drawn several times and averaged");
+        steps.fault(
+            step,
             Mark::Unclear,
             0,
             "nothing is accumulated in this frame",
-            "shadows are hard",
-            "the key f of the handout's program switches to soft shadows",
+            &HARD,
         );
     }
 }
 
-/// Says whether weights sum up to 1.
-fn weights(steps: &mut Steps, step: Asked, line: u64, weights: &[f64], returned: f64) {
-    let sum: f64 = weights.iter().sum();
-    let told = format!(
-        "{} pictures, whose weights sum up to {}",
-        weights.len(),
-        (sum * 1e4).round() / 1e4
-    );
-    if (sum - 1.0).abs() <= TOLERANCE && (returned - 1.0).abs() <= TOLERANCE {
-        steps.found(step, line, told);
-    } else if (sum * returned - 1.0).abs() <= TOLERANCE {
-        steps.other(
-            step,
-            Mark::OtherArguments,
-            line,
-            told + ", and are divided at the end",
-            "a buffer that holds [-1, 1] runs over: most of the picture is dark (Fig. 2(b))",
-            "weight each picture by 1/numJitters as it is added",
-        );
-    } else {
-        steps.mistake(step, Mark::OtherArguments, line, "weights_wrong", told);
-    }
-}
-
+/// Of glAccum: line, operation and value of each.
 fn accumulation_buffer(steps: &mut Steps, calls: &[(u64, &str, f64)], frame: &Frame) {
     let added: Vec<_> = calls
         .iter()
         .filter(|(_, operation, _)| matches!(*operation, "GL_ACCUM" | "GL_LOAD"))
         .collect();
-    let first = added.first().map_or(calls[0].0, |call| call.0);
+    let (first, replaces) = match added.first() {
+        Some((line, operation, _)) => (*line, *operation == "GL_LOAD"),
+        None => (calls[0].0, false),
+    };
     let step = (SOFT, "the accumulation buffer is cleared");
-    let clear = frame.steps.iter().find(|step| {
+    match before(frame, first, |what| {
         matches!(
-            step.what,
+            what,
             StepKind::Clear {
                 accumulation: true,
                 ..
             }
-        ) && step.line < first
-    });
-    match clear {
+        )
+    }) {
         Some(clear) => steps.found(step, clear.line, "glClear(GL_ACCUM_BUFFER_BIT)"),
-        None if added.first().is_some_and(|call| call.1 == "GL_LOAD") => {
-            steps.found(step, first, "GL_LOAD replaces what it held")
+        None if replaces => steps.found(step, first, "GL_LOAD replaces what it held"),
+        None => {
+            let told = "nothing clears it before the first GL_ACCUM";
+            steps.fault(step, Mark::Missing, first, told, &GHOSTS);
         }
-        None => steps.other(
-            step,
-            Mark::Missing,
-            first,
-            "nothing clears it before the first GL_ACCUM",
-            GHOSTS,
-            "glClear(GL_ACCUM_BUFFER_BIT) at the start of display()",
-        ),
     }
     let returned = calls
         .iter()
@@ -109,118 +79,112 @@ fn accumulation_buffer(steps: &mut Steps, calls: &[(u64, &str, f64)], frame: &Fr
         &values,
         returned.map_or(1.0, |call| call.2),
     );
+
     let step = (SOFT, "glAccum(GL_RETURN, 1) behind the last picture");
     match returned {
         Some((line, _, value)) => steps.found(step, *line, format!("with {value}")),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            first,
-            "there is none",
-            "only the last picture is seen: hard shadows",
-            "glAccum(GL_RETURN, 1)",
-        ),
+        None => steps.fault(step, Mark::Missing, first, "there is none", &NOT_RETURNED),
     }
 }
 
-const GHOSTS: &str = "the pictures of earlier frames shine through: ghosts, and ever brighter";
-
-fn framebuffer_object(
-    steps: &mut Steps,
-    sums: &[(&Pass, &Draw)],
-    pass: &Pass,
-    frame: &Frame,
-    state: &State,
-) {
-    let (first, last) = (sums[0].1, sums[sums.len() - 1].1);
-    let target = &pass.target.value;
+/// Draw calls that blend a picture into the accumulator, each with its pass.
+fn framebuffer_object(steps: &mut Steps, blended: &[(&Pass, &Draw)], frame: &Frame, state: &State) {
+    let ((pass, first), (_, last)) = (blended[0], blended[blended.len() - 1]);
+    let accumulator = &pass.target.value;
     let step = (
         FBO,
         "fbo_accum_init: the accumulator holds more than 8 bits",
     );
     match format(pass, state) {
-        Some((line, format)) if holds_8_bits(&format) => steps.other(
-            step,
-            Mark::OtherArguments,
-            line,
-            format,
-            "bands, as in Fig. 2(a)",
-            "GL_RGBA32F, or GL_RGB32F where the driver has it",
-        ),
+        Some((line, format)) if holds_8_bits(&format) => {
+            steps.fault(step, Mark::OtherArguments, line, format, &BANDS);
+        }
         Some((line, format)) => steps.found(step, line, format),
         None => {}
     }
+
     let step = (FBO, "the accumulator is cleared");
-    let clear = frame.steps.iter().find(|step| {
-        let cleared = matches!(&step.what, StepKind::Clear { target: cleared, color: true, .. } if cleared == target);
-        cleared && step.line < first.line
-    });
-    match clear {
+    let is_clear = |what: &StepKind| matches!(what, StepKind::Clear { target, color: true, .. } if target == accumulator);
+    match before(frame, first.line, is_clear) {
         Some(clear) => steps.found(step, clear.line, "it is"),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            first.line,
-            format!("framebuffer {target} is not cleared before the first picture is added"),
-            GHOSTS,
-            "clear it before the first fbo_accum",
-        ),
+        None => {
+            let told = format!(
+                "framebuffer {accumulator} is not cleared before the first picture is added"
+            );
+            steps.fault(step, Mark::Missing, first.line, told, &GHOSTS);
+        }
     }
-    let values: Vec<f64> = sums
-        .iter()
-        .map(|(_, draw)| draw.pipeline.blend_alpha.value)
-        .collect();
+
     let step = (
         FBO,
         "fbo_accum: blended with (GL_CONSTANT_ALPHA, GL_ONE) by 1/numJitters",
     );
-    let added = first.pipeline.blend.value[1] == "GL_ONE";
-    if added {
-        weights(steps, step, first.pipeline.blend_alpha.line, &values, 1.0);
+    let pipeline = &first.pipeline;
+    let kept = &pipeline.blend.value[1];
+    if kept == "GL_ONE" {
+        let values = blended
+            .iter()
+            .map(|(_, draw)| draw.pipeline.blend_alpha.value);
+        let values: Vec<f64> = values.collect();
+        weights(steps, step, pipeline.blend_alpha.line, &values, 1.0);
     } else {
-        let told = format!(
-            "what is there is multiplied by {}",
-            first.pipeline.blend.value[1]
-        );
+        let told = format!("what is there is multiplied by {kept}");
         steps.mistake(
             step,
             Mark::OtherArguments,
-            first.pipeline.blend.line,
+            pipeline.blend.line,
             "weights_wrong",
             told,
         );
     }
+
     let step = (FBO, "fbo_accum_return: a copy to the window");
-    let blit = frame.steps.iter().find(|step| {
-        step.line > last.line
-            && matches!(&step.what, StepKind::Blit { from, to } if is_return(from, to))
-    });
-    let drawn = frame
-        .passes
-        .iter()
-        .find(|pass| pass.target.value == "0" && pass.last > last.line);
-    match blit.map(|step| step.line).or(drawn.map(|pass| pass.last)) {
+    let is_return = |step: &&Step| {
+        let to_window =
+            matches!(&step.what, StepKind::Blit { from, to } if from != "0" && to == "0");
+        to_window && step.line > last.line
+    };
+    let copied = frame.steps.iter().find(is_return).map(|step| step.line);
+    let mut passes = frame.passes.iter();
+    let drawn = passes.find(|pass| pass.target.value == "0" && pass.last > last.line);
+    match copied.or(drawn.map(|pass| pass.last)) {
         Some(line) => steps.found(step, line, "it is"),
-        None => steps.other(
-            step,
-            Mark::Missing,
-            last.line,
-            "framebuffer 0 gets nothing behind the last picture",
-            "the window stays empty, or keeps its last picture",
-            "glBlitFramebuffer to framebuffer 0, or a textured quad",
-        ),
+        None => {
+            let told = "framebuffer 0 gets nothing behind the last picture";
+            steps.fault(step, Mark::Missing, last.line, told, &NOT_RETURNED);
+        }
     }
 }
 
-fn is_return(from: &Id, to: &Id) -> bool {
-    from != "0" && to == "0"
+/// Says whether weights sum up to 1.
+fn weights(steps: &mut Steps, step: Asked, line: u64, weights: &[f64], returned: f64) {
+    let sum: f64 = weights.iter().sum();
+    let rounded = (sum * 1e4).round() / 1e4;
+    let told = format!(
+        "{} pictures, whose weights sum up to {rounded}",
+        weights.len()
+    );
+    let is_one = |value: f64| (value - 1.0).abs() <= TOLERANCE;
+    if is_one(sum) && is_one(returned) {
+        steps.found(step, line, told);
+    } else if is_one(sum * returned) {
+        let told = told + ", and are divided at the end";
+        steps.fault(step, Mark::OtherArguments, line, told, &SUM_THEN_DIVIDE);
+    } else {
+        steps.mistake(step, Mark::OtherArguments, line, "weights_wrong", told);
+    }
+}
+
+fn before(frame: &Frame, line: u64, wanted: impl Fn(&StepKind) -> bool) -> Option<&Step> {
+    let mut steps = frame.steps.iter();
+    steps.find(|step| step.line < line && wanted(&step.what))
 }
 
 /// Of the color buffer that is added to, with the line that made it.
 fn format(pass: &Pass, state: &State) -> Option<(u64, String)> {
     let attachment = pass.framebuffer.as_ref()?.drawn_to().next()?;
     match &attachment.value {
-        Attachment::Texture(id) => {
+        Attachment::Texture { id, .. } => {
             let image = state.textures.get(id)?.image.as_ref()?;
             Some((image.line, image.value.2.clone()))
         }
@@ -232,8 +196,13 @@ fn format(pass: &Pass, state: &State) -> Option<(u64, String)> {
 }
 
 fn holds_8_bits(format: &str) -> bool {
-    matches!(
-        format,
-        "GL_RGB" | "GL_RGBA" | "GL_RGB8" | "GL_RGBA8" | "GL_RGB8_SNORM" | "GL_RGBA8_SNORM"
-    )
+    let formats = [
+        "GL_RGB",
+        "GL_RGBA",
+        "GL_RGB8",
+        "GL_RGBA8",
+        "GL_RGB8_SNORM",
+        "GL_RGBA8_SNORM",
+    ];
+    formats.contains(&format)
 }

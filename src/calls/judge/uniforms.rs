@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use super::faults::{NO_PROGRAM, OTHER_PROGRAM, OTHER_TYPE};
 use super::{Map, Second};
 use crate::calls::frame::{Draw, Frame};
 use crate::calls::handouts::Handout;
-use crate::calls::objects::{Program, Value, looks_like_matrix};
+use crate::calls::objects::{Program, Value, looks_like_matrix, looks_like_sampler};
 use crate::calls::report::{Mark, Steps};
 use crate::calls::state::{SlipKind, State};
 
@@ -30,19 +31,33 @@ pub fn judge(steps: &mut Steps, handout: &Handout, frame: &Frame, maps: &[Map], 
 
 /// What glUniform was given, and where it went.
 pub fn slips(steps: &mut Steps, place: &'static str, state: &State) {
+    let step = (place, "every uniform goes to its own program and place");
     for slip in &state.slips {
-        let step = (place, "every uniform goes to its own program and place");
+        let line = slip.line;
         match &slip.kind {
-            SlipKind::Nowhere { program, names } => steps.mistake(step, Mark::OtherArguments, slip.line, "misspelt_uniform",
-                format!("glUniform at location -1: program {program} has no uniform {}", names.join(" or "))),
-            SlipKind::NoProgram { location } => steps.other(step, Mark::OutOfOrder, slip.line,
-                format!("location {location} is set while no program is in use"),
-                "the uniform keeps its old value, at first 0", "glUseProgram before glUniform"),
-            SlipKind::OtherProgram { used, meant, name } => steps.mistake(step, Mark::OutOfOrder, slip.line, "same_texture_unit",
-                format!("program {used} is in use, and the location is that of {name} in program {meant}")),
-            SlipKind::OtherType { name, kind, call } => steps.other(step, Mark::OtherArguments, slip.line,
-                format!("{call} for {name}, which is a {kind}"),
-                "the driver refuses it, and the uniform keeps its old value", "another program is in use than the one meant, or the function is that of another type"),
+            SlipKind::Nowhere { program, names } => {
+                let names = names.join(" or ");
+                let told = format!("glUniform at location -1: program {program} has no {names}");
+                steps.mistake(step, Mark::OtherArguments, line, "misspelt_uniform", told);
+            }
+            SlipKind::NoProgram { location } => {
+                let told = format!("location {location} is set while no program is in use");
+                steps.fault(step, Mark::OutOfOrder, line, told, &NO_PROGRAM);
+            }
+            SlipKind::OtherProgram { used, meant, name } => {
+                let told = format!(
+                    "program {used} is in use, and the location is that of {name} in program {meant}"
+                );
+                if looks_like_sampler(name) {
+                    steps.mistake(step, Mark::OutOfOrder, line, "same_texture_unit", told);
+                } else {
+                    steps.fault(step, Mark::OutOfOrder, line, told, &OTHER_PROGRAM);
+                }
+            }
+            SlipKind::OtherType { name, kind, call } => {
+                let told = format!("{call} for {name}, which is a {kind}");
+                steps.fault(step, Mark::OtherArguments, line, told, &OTHER_TYPE);
+            }
         }
     }
 }
@@ -56,16 +71,11 @@ fn never_set(steps: &mut Steps, handout: &Handout, program: &Program, draw: &Dra
             None => program.source.is_none() && looks_like_matrix(&name.value),
         };
         if is_matrix && !program.values.contains_key(location) {
-            steps.mistake(
-                step,
-                Mark::Missing,
-                name.line,
-                "misspelt_uniform",
-                format!(
-                    "{} is never set, and so all zeros when line {} draws with it",
-                    name.value, draw.line
-                ),
+            let told = format!(
+                "{} is never set, and so all zeros when line {} draws with it",
+                name.value, draw.line
             );
+            steps.mistake(step, Mark::Missing, name.line, "misspelt_uniform", told);
         }
     }
 }

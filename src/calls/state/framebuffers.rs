@@ -42,14 +42,12 @@ impl State {
                     self.read_framebuffer = id;
                 }
             }
-            "glFramebufferTexture" | "glNamedFramebufferTexture" => {
-                self.attach(&id, call.word(1), Attachment::Texture(call.id(2)), line);
-            }
+            "glFramebufferTexture"
+            | "glNamedFramebufferTexture"
+            | "glFramebufferTextureLayer"
+            | "glNamedFramebufferTextureLayer" => self.attach_texture(&id, call, 2, line),
             "glFramebufferTexture2D" | "glNamedFramebufferTexture2D" => {
-                self.attach(&id, call.word(1), Attachment::Texture(call.id(3)), line);
-            }
-            "glFramebufferTextureLayer" | "glNamedFramebufferTextureLayer" => {
-                self.attach(&id, call.word(1), Attachment::Texture(call.id(2)), line);
+                self.attach_texture(&id, call, 3, line);
             }
             "glFramebufferRenderbuffer" | "glNamedFramebufferRenderbuffer" => {
                 self.attach(
@@ -124,10 +122,23 @@ impl State {
         true
     }
 
+    /// `place` is that of the texture among the arguments.
+    fn attach_texture(&mut self, id: &Id, call: &Call, place: usize, line: u64) {
+        let rest = (2..call.args.len()).filter(|other| *other != place);
+        let part: Vec<_> = rest.map(|place| call.id(place)).collect();
+        let texture = Attachment::Texture {
+            id: call.id(place),
+            part: part.join(" "),
+        };
+        self.attach(id, call.word(1), texture, line);
+    }
+
     fn attach(&mut self, id: &Id, point: &str, what: Attachment, line: u64) {
         let framebuffer = self.framebuffer(id);
-        let nothing =
-            matches!(&what, Attachment::Texture(id) | Attachment::Renderbuffer(id) if id == "0");
+        let nothing = matches!(
+            &what,
+            Attachment::Texture { id, .. } | Attachment::Renderbuffer(id) if id == "0"
+        );
         let known = framebuffer
             .attachments
             .get(point)

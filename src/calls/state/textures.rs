@@ -10,18 +10,13 @@ use crate::calls::syntax::{Call, Value};
 const MOST_UNITS: usize = 64;
 
 impl State {
-    /// What a sampler at this unit reads: its texture, with the parameters that hold.
-    pub fn texture_at(&self, unit: i64) -> Option<(Set<Id>, Rc<Texture>)> {
-        let targets = [
-            "GL_TEXTURE_2D",
-            "GL_TEXTURE_RECTANGLE",
-            "GL_TEXTURE_2D_ARRAY",
-            "GL_TEXTURE_CUBE_MAP",
-        ];
-        let bound = targets
-            .iter()
-            .filter_map(|target| self.bound.get(&(unit, (*target).to_owned())))
-            .find(|set| set.value != "0")?;
+    /// What a sampler at this unit reads: its texture, with the parameters that hold. Of several textures at a unit it
+    /// is the one of the sampler's target.
+    pub fn texture_at(&self, unit: i64, target: Option<&str>) -> Option<(Set<Id>, Rc<Texture>)> {
+        let mut at_unit = self.bound.iter().filter(|((at, bound), set)| {
+            *at == unit && set.value != "0" && target.is_none_or(|target| target == bound)
+        });
+        let (_, bound) = at_unit.next()?;
         let texture = self.textures.get(&bound.value)?;
         match self
             .bound_samplers
@@ -48,6 +43,10 @@ impl State {
             }
             None => Some((bound.clone(), texture.clone())),
         }
+    }
+
+    pub fn has_sampler_objects(&self) -> bool {
+        !self.samplers.is_empty()
     }
 
     /// The line that last bound something to the unit.
@@ -93,6 +92,19 @@ impl State {
             .insert((unit, target.to_owned()), Set::at(line, id));
     }
 
+    /// Binds a texture to the target that it was made for; none unbinds them all.
+    fn bind_unit(&mut self, unit: i64, id: Id, line: u64) {
+        if id == "0" {
+            self.bound.retain(|(at, _), _| *at != unit);
+        }
+        let target = self
+            .textures
+            .get(&id)
+            .and_then(|texture| texture.target.clone());
+        let target = target.unwrap_or_else(|| "GL_TEXTURE_2D".to_owned());
+        self.bind(unit, &target, id, line);
+    }
+
     pub(super) fn texture_call(&mut self, call: &Call) -> bool {
         let line = call.line;
         // The direct calls name the texture where the classic ones name the target.
@@ -111,10 +123,15 @@ impl State {
         match classic.as_str() {
             "glActiveTexture" => self.unit = unit(call.arg(0)),
             "glBindTexture" => self.bind(self.unit, call.word(0), call.id(1), line),
-            "glBindTextureUnit" => self.bind(call.int(0), "GL_TEXTURE_2D", call.id(1), line),
+            "glBindTextureUnit" => self.bind_unit(call.int(0), call.id(1), line),
+            "glCreateTextures" => {
+                for id in call.arg(2).items() {
+                    self.texture(&id.id()).target = Some(call.word(0).to_owned());
+                }
+            }
             "glBindTextures" => {
                 for (place, id) in call.arg(2).items().iter().enumerate().take(256) {
-                    self.bind(call.int(0) + place as i64, "GL_TEXTURE_2D", id.id(), line);
+                    self.bind_unit(call.int(0) + place as i64, id.id(), line);
                 }
             }
             "glBindMultiTexture" => self.bind(unit(call.arg(0)), call.word(1), call.id(2), line),
