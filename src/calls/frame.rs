@@ -68,14 +68,22 @@ pub struct Draw {
     pub pipeline: Rc<Pipeline>,
     /// The program's matrices.
     pub matrices: Vec<Matrix>,
-    /// The fixed pipeline's: modelview, projection, texture matrices, and the line of the last change.
-    pub fixed: (DMat4, DMat4, Vec<DMat4>, u64),
+    pub fixed: Fixed,
     /// The fixed pipeline's factor that projects onto a plane, and its line.
     pub projector: Option<(u64, DMat4)>,
     /// What the program's samplers read.
     pub samplers: Vec<Reading>,
     /// What is bound, by unit.
     pub units: Vec<(i64, Set<Id>)>,
+}
+
+/// The matrices of the fixed pipeline.
+#[derive(Clone)]
+pub struct Fixed {
+    pub modelview: Set<DMat4>,
+    pub projection: Set<DMat4>,
+    /// Of the units whose matrix was ever changed.
+    pub textures: Vec<Set<DMat4>>,
 }
 
 /// A sampler, and the texture at its unit.
@@ -243,12 +251,11 @@ impl Kept {
             matrices: program
                 .map(|program| program.matrices())
                 .unwrap_or_default(),
-            fixed: (
-                state.matrices.modelview(),
-                state.matrices.projection(),
-                state.matrices.textures().collect(),
-                state.matrices.line,
-            ),
+            fixed: Fixed {
+                modelview: state.matrices.modelview(),
+                projection: state.matrices.projection(),
+                textures: state.matrices.textures().collect(),
+            },
             projector: state.matrices.projector(),
             samplers: samplers.into_iter().map(reading).collect(),
             units: state.units(),

@@ -7,7 +7,7 @@
 use glam::{DMat3, DMat4, DVec4};
 
 use super::frame::Draw;
-use super::objects::Matrix;
+use super::objects::{Matrix, Set};
 
 /// To [0,1] from the standard cube [−1,1]: T(1/2)·H(1/2).
 pub const B: DMat4 = half([0.5, 0.5, 0.5]);
@@ -96,7 +96,7 @@ pub fn relations(first: &[&Draw], second: &[&Draw]) -> Relations {
 /// From the mesh to the light's clipping space, by every order that the names allow.
 pub fn to_light(draw: &Draw) -> Vec<DMat4> {
     if draw.matrices.is_empty() {
-        return vec![draw.fixed.1 * draw.fixed.0];
+        return vec![draw.fixed.projection.value * draw.fixed.modelview.value];
     }
     let values: Vec<DMat4> = draw.matrices.iter().map(|matrix| matrix.value).collect();
     if values.len() > 3 {
@@ -123,15 +123,16 @@ pub fn to_light(draw: &Draw) -> Vec<DMat4> {
         .collect()
 }
 
-/// The light's projection, or the whole way where it is no matrix of its own.
-pub fn projection(draw: &Draw) -> Option<DMat4> {
-    if draw.matrices.is_empty() {
-        return Some(draw.fixed.1);
-    }
+/// The light's projection, or the whole way where it is no matrix of its own; with its line.
+pub fn projection(draw: &Draw) -> Option<Set<DMat4>> {
+    let Some(first) = draw.matrices.first() else {
+        return Some(draw.fixed.projection.clone());
+    };
     let named = draw.matrices.iter().find(|matrix| rank(&matrix.name) == 0);
-    named
-        .map(|matrix| matrix.value)
-        .or_else(|| to_light(draw).first().copied())
+    match named {
+        Some(matrix) => Some(Set::at(matrix.line, matrix.value)),
+        None => Some(Set::at(first.line, *to_light(draw).first()?)),
+    }
 }
 
 impl Relations {
@@ -215,16 +216,16 @@ fn relation(first: &Draw, second: &Draw) -> Option<(Relation, Matrix)> {
 
 /// The program's matrices, and the fixed pipeline's that a shader of its time finds.
 fn second_matrices(draw: &Draw) -> Vec<Matrix> {
-    let fixed = |name: &str, value: DMat4| Matrix {
+    let fixed = |name: &str, set: &Set<DMat4>| Matrix {
         name: name.to_owned(),
-        value,
-        line: draw.fixed.3,
+        value: set.value,
+        line: set.line,
     };
     let mut all: Vec<Matrix> = draw.matrices.clone();
-    let textures = draw.fixed.2.iter();
-    all.extend(textures.map(|matrix| fixed("the texture matrix", *matrix)));
-    if !draw.fixed.2.is_empty() {
-        all.push(fixed("the modelview matrix", draw.fixed.0));
+    let textures = draw.fixed.textures.iter();
+    all.extend(textures.map(|matrix| fixed("the texture matrix", matrix)));
+    if !draw.fixed.textures.is_empty() {
+        all.push(fixed("the modelview matrix", &draw.fixed.modelview));
     }
     all.truncate(MOST_MATRICES);
     all

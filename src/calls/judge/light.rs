@@ -24,12 +24,9 @@ pub fn judge(steps: &mut Steps, handout: &Handout, map: &Map, second: &Second) {
         return;
     }
     let found = matrices::relations(&first, &second.draws);
-    let whole = first.first().and_then(|draw| matrices::projection(draw));
-    if let Some(light) = found.of_light().or(whole) {
-        let line = first[0]
-            .matrices
-            .first()
-            .map_or(first[0].fixed.3, |matrix| matrix.line);
+    if let Some(whole) = first.first().and_then(|draw| matrices::projection(draw)) {
+        let line = whole.line;
+        let light = found.of_light().unwrap_or(whole.value);
         if let Some(times) = matrices::depth_range(light).filter(|times| *times > FARTHEST) {
             let told = format!("the far plane is {times:.0} times as far as the near one");
             steps.mistake(step, Mark::Unclear, line, "near_too_small", told);
@@ -112,11 +109,12 @@ fn called(name: &str) -> &str {
 fn not_a_number<'a>(first: &[&'a Draw]) -> Option<(u64, &'a str)> {
     first.iter().find_map(|draw| {
         let uniform = draw.matrices.iter().find(|matrix| matrix.value.is_nan());
-        let fixed = draw.fixed.0.is_nan() || draw.fixed.1.is_nan();
-        match uniform {
-            Some(matrix) => Some((matrix.line, called(&matrix.name))),
-            None if draw.program.is_none() && fixed => Some((draw.fixed.3, "the light's view")),
-            None => None,
+        if let Some(matrix) = uniform {
+            return Some((matrix.line, called(&matrix.name)));
         }
+        let fixed = [&draw.fixed.modelview, &draw.fixed.projection];
+        let of_fixed = fixed.into_iter().find(|set| set.value.is_nan());
+        let of_fixed = of_fixed.filter(|_| draw.program.is_none());
+        of_fixed.map(|set| (set.line, "the light's view"))
     })
 }

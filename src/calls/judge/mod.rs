@@ -81,40 +81,30 @@ fn shadow_maps(steps: &mut Steps, handout: &Handout, frame: &Frame, old: &[Pass]
     uniforms::judge(steps, handout, frame, &used, state);
 }
 
-/// The depth textures that are drawn into for a later look.
+/// The depth textures that are drawn into for a later look. Where one is drawn several times, the last one counts.
 fn maps<'a>(frame: &'a Frame, old: &'a [Pass]) -> Vec<Map<'a>> {
     let mut used: Vec<Map> = Vec::new();
-    for (pass, is_old) in frame
-        .passes
-        .iter()
-        .map(|pass| (pass, false))
-        .chain(old.iter().map(|pass| (pass, true)))
-    {
+    let new = frame.passes.iter().map(|pass| (pass, false));
+    for (pass, is_old) in new.chain(old.iter().map(|pass| (pass, true))) {
         let Some((id, texture)) = &pass.map else {
             continue;
         };
-        let is_read = frame
-            .passes
-            .iter()
-            .any(|pass| pass.draws.iter().any(|draw| draw.reads(id).is_some()));
-        let has_color = pass
-            .framebuffer
-            .as_ref()
-            .is_some_and(|framebuffer| framebuffer.color().is_some());
-        let known = used.iter().any(|map| map.id == id);
+        let mut draws = frame.passes.iter().flat_map(|pass| &pass.draws);
+        let is_read = draws.any(|draw| draw.reads(id).is_some());
+        let framebuffer = pass.framebuffer.as_ref();
+        let has_color = framebuffer.is_some_and(|framebuffer| framebuffer.color().is_some());
         // One of an earlier frame counts where it is read, or where there is no other.
-        let counts = if is_old {
-            is_read || used.is_empty() && !has_color
-        } else {
-            is_read || !has_color
+        let counts = is_read || !has_color && (!is_old || used.is_empty());
+        let map = Map {
+            id,
+            texture,
+            pass,
+            is_old,
         };
-        if counts && !known {
-            used.push(Map {
-                id,
-                texture,
-                pass,
-                is_old,
-            });
+        match used.iter().position(|known| known.id == id) {
+            Some(place) if counts && !is_old => used[place] = map,
+            None if counts => used.push(map),
+            _ => {}
         }
     }
     used
@@ -122,15 +112,17 @@ fn maps<'a>(frame: &'a Frame, old: &'a [Pass]) -> Vec<Map<'a>> {
 
 fn second_pass<'a>(frame: &'a Frame, map: &Map, maps: &[Map]) -> Second<'a> {
     let of = |wanted: &dyn Fn(&Pass, &Draw) -> bool| -> (Vec<&'a Draw>, Option<&'a Pass>) {
-        let mut first = None;
-        let mut draws = Vec::new();
-        for pass in &frame.passes {
-            for draw in pass.draws.iter().filter(|draw| wanted(pass, draw)) {
-                first.get_or_insert(pass);
-                draws.push(draw);
-            }
-        }
-        (draws, first)
+        let draws = frame
+            .passes
+            .iter()
+            .flat_map(|pass| pass.draws.iter().map(move |draw| (pass, draw)));
+        let all: Vec<_> = draws.filter(|(pass, draw)| wanted(pass, draw)).collect();
+        // Behind the map, or, where the map is for the next frame, all of them.
+        let is_behind = |(pass, _): &&(&Pass, &Draw)| map.is_old || pass.last > map.pass.last;
+        let behind: Vec<_> = all.iter().filter(is_behind).copied().collect();
+        let counted = if behind.is_empty() { all } else { behind };
+        let first = counted.first().map(|(pass, _)| *pass);
+        (counted.into_iter().map(|(_, draw)| draw).collect(), first)
     };
     let into_map = |pass: &Pass| {
         pass.framebuffer

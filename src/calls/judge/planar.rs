@@ -87,7 +87,9 @@ fn shadow(draw: &Draw) -> Option<Shadow<'_>> {
         .iter()
         .find_map(|matrix| made(matrix.line, matrix.value, false));
     let is_fixed = draw.matrices.is_empty();
-    uniform.or_else(|| made(draw.fixed.3, draw.fixed.0, false).filter(|_| is_fixed))
+    uniform.or_else(|| {
+        made(draw.fixed.modelview.line, draw.fixed.modelview.value, false).filter(|_| is_fixed)
+    })
 }
 
 fn shadow_matrix(steps: &mut Steps, shadows: &[Shadow]) {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DMat4, DVec3};
 
 use crate::calls::matrices::light_and_plane;
+use crate::calls::objects::Set;
 use crate::calls::syntax::Call;
 
 /// GL promises 32 modelview matrices; nobody nests deeper.
@@ -15,24 +16,30 @@ const DEEPEST: usize = 256;
 pub struct Matrices {
     mode: String,
     stacks: BTreeMap<(String, i64), Vec<Top>>,
-    /// The line of the last change.
-    pub line: u64,
 }
 
 #[derive(Clone, Copy, Default)]
 struct Top {
     matrix: DMat4,
+    /// Of its last change.
+    line: u64,
     /// The factor of it that projects onto a plane, and its line.
     projector: Option<(u64, DMat4)>,
 }
 
+impl Top {
+    fn set(&self) -> Set<DMat4> {
+        Set::at(self.line, self.matrix)
+    }
+}
+
 impl Matrices {
-    pub fn modelview(&self) -> DMat4 {
-        self.top("GL_MODELVIEW", 0).matrix
+    pub fn modelview(&self) -> Set<DMat4> {
+        self.top("GL_MODELVIEW", 0).set()
     }
 
-    pub fn projection(&self) -> DMat4 {
-        self.top("GL_PROJECTION", 0).matrix
+    pub fn projection(&self) -> Set<DMat4> {
+        self.top("GL_PROJECTION", 0).set()
     }
 
     /// What projects onto a plane in the modelview matrix.
@@ -41,12 +48,12 @@ impl Matrices {
     }
 
     /// Of a unit whose matrix was ever changed.
-    pub fn textures(&self) -> impl Iterator<Item = DMat4> {
+    pub fn textures(&self) -> impl Iterator<Item = Set<DMat4>> {
         let units = self
             .stacks
             .iter()
             .filter(|((mode, _), _)| mode == "GL_TEXTURE");
-        units.filter_map(|(_, stack)| stack.last().map(|top| top.matrix))
+        units.filter_map(|(_, stack)| stack.last().map(|top| top.set()))
     }
 
     fn top(&self, mode: &str, unit: i64) -> Top {
@@ -103,11 +110,13 @@ impl Matrices {
             Change::To(matrix) => {
                 *top = Top {
                     matrix,
+                    line: call.line,
                     projector: None,
-                }
+                };
             }
             Change::By(matrix) => {
                 top.matrix *= matrix;
+                top.line = call.line;
                 if light_and_plane(matrix).is_some() {
                     top.projector = Some((call.line, matrix));
                 }
@@ -121,7 +130,6 @@ impl Matrices {
             }
             Change::Push | Change::Pop => {}
         }
-        self.line = call.line;
         true
     }
 }
