@@ -61,9 +61,12 @@ fn helpers_between_the_calls_do_not_matter() {
     }
 }
 
+/// The same call in another spelling.
+type Spelling = fn(&str) -> String;
+
 #[test]
 fn the_spelling_of_a_dump_does_not_matter() {
-    let spellings: [(&str, fn(&str) -> String); 5] = [
+    let spellings: [(&str, Spelling); 5] = [
         ("without numbers", |call| {
             call.trim_start_matches(|c: char| c.is_ascii_digit())
                 .trim_start()

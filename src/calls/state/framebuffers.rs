@@ -9,7 +9,7 @@ use crate::calls::syntax::Call;
 impl State {
     fn framebuffer(&mut self, id: &Id) -> &mut Framebuffer {
         let entry = self.framebuffers.entry(id.clone());
-        Rc::make_mut(entry.or_insert_with(Rc::default))
+        Rc::make_mut(entry.or_default())
     }
 
     /// The framebuffer that a classic call works on.
