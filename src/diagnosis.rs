@@ -1,10 +1,14 @@
 //! Which mistake explains a picture: the lab makes each of them in the same state, and the pictures are held against the
 //! student's.
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use image::RgbImage;
 
 use crate::Result;
-use crate::compare::{Envelope, SAME, TOLERANCE, forgive, unlikeness};
+use crate::compare::{Envelope, Forgiven, SAME, TOLERANCE, forgive, unlikeness};
 use crate::mistakes::{self, Edits, Made, Mistake};
 
 /// A mistake explains a picture that is nearer to its own by this factor than to the right one.
@@ -37,10 +41,14 @@ struct Group {
 pub struct Explanation {
     /// One, or several whose pictures are alike in this state.
     pub mistakes: Vec<(&'static Mistake, &'static Made)>,
-    /// The share of the pixels that are as they are in the mistake's own picture.
+    /// The share of the pixels that are not as they are in the mistake's own picture.
     pub left: f64,
     /// How much of what differs from the right picture the mistake explains, 0…1.
     pub explained: f64,
+    /// Their picture in this state.
+    pub picture: RgbImage,
+    /// Whether it explains the picture turned upside down.
+    pub upside_down: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -52,15 +60,35 @@ pub enum Diagnosis {
     NoneOfThese,
 }
 
+impl Diagnosis {
+    /// The one that leaves less unexplained: of a picture at its own size, and at the size of the window that it may have
+    /// been scaled from.
+    pub fn or_better(self, other: Self) -> Self {
+        let left = |diagnosis: &Self| match diagnosis {
+            Self::Right => 0.0,
+            Self::Explained(found) => found[0].left,
+            Self::NoneOfThese => 1.0,
+        };
+        match left(&other) < left(&self) {
+            true => other,
+            false => self,
+        }
+    }
+}
+
 impl Suspects {
-    /// `draw` draws the lab's picture with edits.
-    pub fn new(lab: &str, mut draw: impl FnMut(Edits) -> Result<RgbImage>) -> Result<Self> {
-        let right = draw(Edits::default())?;
+    /// `draw` draws the lab's picture with edits, on several threads at once.
+    pub fn new(lab: &str, draw: impl Fn(Edits) -> Result<RgbImage> + Sync) -> Result<Self> {
+        let made: Vec<_> = mistakes::of_lab(lab).collect();
+        let edits: Vec<_> = std::iter::once(Edits::default())
+            .chain(made.iter().map(|(_, made)| made.edits))
+            .collect();
+        let mut pictures = all_drawn(&edits, draw)?.into_iter();
+        let right = pictures.next().expect("the right one is drawn");
         let right_range = Envelope::new(&right);
         let mut groups: Vec<Group> = Vec::new();
         let mut unseen = Vec::new();
-        for (mistake, made) in mistakes::of_lab(lab) {
-            let picture = draw(made.edits)?;
+        for ((mistake, made), picture) in made.into_iter().zip(pictures) {
             if right_range.share_outside(&picture, TOLERANCE) <= SAME {
                 unseen.push(mistake);
                 continue;
@@ -95,17 +123,19 @@ impl Suspects {
 
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
     pub fn diagnose(&self, mine: &RgbImage, tolerance: u8, strict: bool) -> Diagnosis {
+        // What is left, and whether the picture was turned for it.
         let left = |picture: &RgbImage, range: &Envelope| {
             if strict {
-                return range.share_outside(mine, tolerance);
+                return (range.share_outside(mine, tolerance), false);
             }
             let found = forgive(mine.clone(), picture);
-            match &found.darkened_reference {
+            let left = match &found.darkened_reference {
                 Some(darkened) => Envelope::new(darkened).share_outside(&found.mine, tolerance),
                 None => range.share_outside(&found.mine, tolerance),
-            }
+            };
+            (left, found.forgiven.contains(&Forgiven::UpsideDown))
         };
-        let wrong = left(&self.right, &self.right_range);
+        let (wrong, _) = left(&self.right, &self.right_range);
         if wrong <= SAME {
             return Diagnosis::Right;
         }
@@ -115,8 +145,10 @@ impl Suspects {
             (1000.0 * unlikeness(mine, &group.picture)) as u64
         });
         let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
-            let left = left(&group.picture, &group.range);
+            let (left, upside_down) = left(&group.picture, &group.range);
             Explanation {
+                picture: group.picture.clone(),
+                upside_down,
                 mistakes: group.mistakes.clone(),
                 left,
                 explained: 1.0 - left / wrong,
@@ -132,4 +164,32 @@ impl Suspects {
             false => Diagnosis::Explained(explanations),
         }
     }
+}
+
+/// The picture of each of the edits. Most of a picture's time is the start of its lab, on one core, so that all cores
+/// draw: plain threads, because edits and contexts belong to the thread that has them.
+fn all_drawn(
+    edits: &[Edits],
+    draw: impl Fn(Edits) -> Result<RgbImage> + Sync,
+) -> Result<Vec<RgbImage>> {
+    let drawn: Vec<_> = edits.iter().map(|_| Mutex::new(None)).collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(edits) = edits.get(i) else { break };
+            *drawn[i].lock().expect("no holder panics") = Some(draw(*edits));
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..cores.min(edits.len()) {
+            scope.spawn(work);
+        }
+    });
+    let pictures = drawn.into_iter().map(|picture| {
+        let picture = picture.into_inner().expect("no holder panics");
+        picture.expect("every picture was drawn")
+    });
+    pictures.collect()
 }

@@ -91,7 +91,7 @@ mod egl {
     use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder, GlConfig};
     use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
     use glutin::display::GlDisplay;
-    use glutin::prelude::NotCurrentGlContext;
+    use glutin::prelude::{NotCurrentGlContext, PossiblyCurrentGlContext};
     use glutin::surface::{PbufferSurface, SurfaceAttributesBuilder};
 
     use super::*;
@@ -99,9 +99,19 @@ mod egl {
 
     /// What must stay alive while the context is in use.
     pub struct Current {
-        _context: PossiblyCurrentContext,
+        context: PossiblyCurrentContext,
         _surface: Surface<PbufferSurface>,
         display: Display,
+    }
+
+    impl Drop for Current {
+        fn drop(&mut self) {
+            // EGL destroys a context when no thread has it any more: a thread that ends with it would keep its memory.
+            if self.context.is_current() {
+                // What fails here has nobody to be told to.
+                let _ = self.context.make_not_current_in_place();
+            }
+        }
     }
 
     /// Every device of EGL, tried.
@@ -258,7 +268,7 @@ mod egl {
                 .make_current(&surface)
                 .map_err(refused("making the context current"))?;
             Ok(Current {
-                _context: context,
+                context,
                 _surface: surface,
                 display,
             })

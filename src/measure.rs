@@ -6,13 +6,29 @@ use std::collections::VecDeque;
 use std::fmt;
 
 use glam::DVec3;
-use image::{GrayImage, Rgb, RgbImage};
+use image::{GrayImage, Luma, Rgb, RgbImage};
 use serde_json::{Value, json};
 
 use crate::ground_truth::{Label, MapWidth, Ray, Rays, Truth};
 use crate::labs::MapScale;
 use crate::picture::Projection;
 use nearest::Clumps;
+
+/// A visibility that is not known everywhere, with the truth where it is not: what cannot be told is not called wrong. And
+/// how many of the valid pixels are known.
+pub fn only_known(visibility: GrayImage, known: &[bool], truth: &Truth) -> (GrayImage, usize) {
+    let mut filled = visibility;
+    let mut judged = 0;
+    for ((pixel, known), label) in filled.pixels_mut().zip(known).zip(&truth.labels) {
+        match (label, known) {
+            (Label::NotValid, _) => (),
+            (_, true) => judged += 1,
+            (Label::Lit, false) => *pixel = Luma([255]),
+            (Label::Shadowed, false) => *pixel = Luma([0]),
+        }
+    }
+    (filled, judged)
+}
 
 /// A pixel counts as dark below this, of 255.
 const HALF: u8 = 128;

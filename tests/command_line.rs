@@ -200,6 +200,55 @@ const WRONG: &[(&str, i32, &[&str])] = &[
         1,
         &["binary/lighting.frag", "cannot read it"],
     ),
+    ("check-shaders", 2, &["<DIR>", "<LAB>"]),
+    (
+        "check-shaders missing cs541",
+        2,
+        &["missing", "cannot read it"],
+    ),
+    (
+        "check-shaders empty cs541",
+        2,
+        &["empty", "none of cs541's shaders is here", "shadow.vert"],
+    ),
+    (
+        "check-shaders binary cs541",
+        2,
+        &["binary/lighting.frag", "found no UTF-8"],
+    ),
+    (
+        "check-shaders folder_for_file cs541",
+        2,
+        &["lighting.frag", "cannot read it"],
+    ),
+    (
+        "check-shaders broken cs999",
+        2,
+        &["cs999", "expected one of cs541"],
+    ),
+    (
+        "check-shaders broken cs541 --glsl broken",
+        2,
+        &["found --glsl", "expected the folder of shaders as DIR"],
+    ),
+    (
+        "check-shaders broken cs541 --mistake no_bias",
+        2,
+        &[
+            "--mistake no_bias",
+            "check-shaders is about the lab without mistakes",
+        ],
+    ),
+    (
+        "check-shaders broken cs541 -o a.png",
+        2,
+        &["a.png", "ends in .html"],
+    ),
+    (
+        "check-shaders broken cs541 --light 2",
+        2,
+        &["--light 2", "expected 1"],
+    ),
     ("explain cs541", 2, &["--pixel", "--point"]),
     ("explain cs541 --pixel 1", 2, &["'1'", "2 numbers"]),
     (

@@ -102,6 +102,25 @@ fn a_mistake_is_named() {
     }
 }
 
+/// So dark that it is like the lab's either way up, until it is known what it shows.
+#[test]
+fn a_mistaken_picture_may_be_upside_down() {
+    let folder = work_folder("compare_turned");
+    let mine = draw(&folder, "aueb7 --mistake bias_matrix_missing", "mine.png");
+    let (_, upright) = compare(&folder, "mine.png aueb7");
+    imageops::flip_vertical(&mine)
+        .save(folder.join("turned.png"))
+        .unwrap();
+    let (_, turned) = compare(&folder, "turned.png aueb7");
+    assert!(
+        words(&turned["forgiven"]).contains("upside down"),
+        "{turned}"
+    );
+    assert!(!words(&upright["forgiven"]).contains("upside down"));
+    assert_eq!(turned["shadows"], upright["shadows"]);
+    assert_eq!(first(&turned), ["bias_matrix_missing"]);
+}
+
 #[test]
 fn the_shadows_of_a_mistaken_picture_are_measured() {
     let folder = work_folder("compare_shadows");
@@ -242,6 +261,11 @@ fn a_pair_is_judged_by_its_shadows() {
             > 500,
         "{found}"
     );
+    assert!(first(&found).contains(&"no_bias"), "{found}");
+    // Without shadows there are none to tell a mistake from, but that they are missing.
+    let (code, found) = compare(&folder, "off.png off.png cs541 --set filter=nearest");
+    assert_eq!(code, 1);
+    assert!(!first(&found).contains(&"no_bias"), "{found}");
 }
 
 #[test]
@@ -255,8 +279,9 @@ fn a_page_needs_no_other_file() {
         assert!(page.contains(word), "{word}");
     }
     let sources: Vec<_> = page.match_indices("src=\"").collect();
-    assert_eq!(sources.len(), 4);
-    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 4);
+    // Mine, the reference, the mistake's own, the difference, the shadows.
+    assert_eq!(sources.len(), 5);
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 5);
     assert!(!page.contains("href="));
 }
 
@@ -365,7 +390,10 @@ fn wrong_input_is_one_line_and_2() {
             "compare mine.png cs541 --mistake no_bias",
             vec!["no_bias", "without mistakes"],
         ),
-        ("compare mine.png cs541 --light 2", vec!["--light 2"]),
+        (
+            "compare mine.png mine.png cs541 --size 300x300",
+            vec!["--size", "200×200", "not scaled"],
+        ),
         (
             "compare --batch none cs541",
             vec!["none", "expected pictures"],
@@ -393,6 +421,69 @@ fn wrong_input_is_one_line_and_2() {
     assert!(told.contains("aueb7 cannot make it"), "{told}");
     let refused = shadowlab(&folder, "explain cs541 --pixel 1,1 --mistake no_bias");
     assert_eq!(refused.status.code(), Some(2));
+    // Their shaders are others, in which nothing would be edited.
+    let state = "--mistake no_bias --set shadow_test=exact";
+    let refused = shadowlab(&folder, &format!("screenshot cs541 {state}"));
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!((refused.status.code(), told.lines().count()), (Some(2), 1));
+    assert!(told.contains("shadow_test=handout, found exact"), "{told}");
+}
+
+/// The reference is then another test's picture, and the shadows are judged as ever.
+#[test]
+fn a_picture_is_held_against_another_test() {
+    let folder = work_folder("compare_exact");
+    for (lab, state) in [
+        ("csci3260", "--set shadow_test=exact"),
+        ("aueb7", "--set shadow_test=offset"),
+    ] {
+        draw(&folder, &format!("{lab} {state}"), "exact.png");
+        let (code, right) = compare(&folder, &format!("exact.png {lab} {state}"));
+        assert_eq!(
+            (code, &right["notes"]),
+            (0, &serde_json::json!([])),
+            "{right}"
+        );
+        draw(&folder, lab, "mine.png");
+        let (_, mine) = compare(&folder, &format!("mine.png {lab} {state}"));
+        let wrong = |found: &Value| {
+            ["false_shadow", "false_light"]
+                .map(|kind| found["shadows"][kind]["pixels"].as_u64().unwrap())
+        };
+        assert!(
+            wrong(&mine).iter().sum::<u64>() > 2 * wrong(&right).iter().sum::<u64>(),
+            "{mine}"
+        );
+        draw(&folder, &format!("{lab} --mistake no_bias"), "acne.png");
+        let (code, acne) = compare(&folder, &format!("acne.png {lab} {state}"));
+        assert_eq!(code, 1);
+        assert!(words(&acne["notes"]).contains("handout's test"), "{acne}");
+        assert!(acne["diagnosis"].is_null(), "{acne}");
+    }
+}
+
+/// A picture that was made larger or smaller is one of the course's window; `--size` tells of another.
+#[test]
+fn a_scaled_picture_is_diagnosed_in_its_window() {
+    let folder = work_folder("compare_scaled");
+    let drawn = shadowlab(
+        &folder,
+        "screenshot csci3260 --mistake viewport_not_restored -o whole.png",
+    );
+    assert!(drawn.status.success());
+    let whole = image::open(folder.join("whole.png")).unwrap().into_rgb8();
+    let smaller = shadowlab::compare::resized(&whole, [600, 450]);
+    smaller.save(folder.join("smaller.png")).unwrap();
+    for size in ["", "--size 800x600"] {
+        let (_, found) = compare(&folder, &format!("smaller.png csci3260 {size}"));
+        assert!(
+            first(&found).contains(&"viewport_not_restored"),
+            "{size}: {found}"
+        );
+    }
+    // In a window that had another shape it has another picture.
+    let (_, found) = compare(&folder, "smaller.png csci3260 --size 600x600");
+    assert!(!first(&found).contains(&"viewport_not_restored"), "{found}");
 }
 
 /// Each edit meets what it edits, and changes the picture in some state; in the lab's first one, unless told here.
@@ -419,6 +510,7 @@ fn every_mistake_can_be_made_and_most_can_be_seen() {
         ("aueb7", "no_draw_buffer_none"),
         ("aueb7", "no_w_test"),
         ("aueb7", "too_much_bias"),
+        ("eecs487", "accumulator_not_cleared"),
         ("eecs487", "weights_wrong"),
     ];
     let folder = work_folder("mistakes");

@@ -30,6 +30,7 @@ const ROOMS: &[Room] = &[
             "diagnosis",
             "calls",
             "mistakes",
+            "own_shaders",
             "compare",
             "hard",
             "measure",
@@ -56,10 +57,21 @@ const ROOMS: &[Room] = &[
         crates: &["glow", "glutin"],
         may_be_unsafe: true,
     },
+    // Holds a student's shaders against a lab's; makes no GL call of its own.
+    Room {
+        name: "own_shaders",
+        imports: &[
+            "headless", "compare", "labs", "gl", "glsl", "scene", "error",
+        ],
+        crates: &[],
+        may_be_unsafe: false,
+    },
     // Measures a lab in a context, whatever lab and context they are; makes no GL call of its own.
     Room {
         name: "report",
         imports: &[
+            "own_shaders",
+            "compare",
             "headless",
             "hard",
             "measure",
@@ -137,9 +149,16 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "gl",
-        imports: &["scene", "picture", "error"],
+        imports: &["glsl", "scene", "picture", "error"],
         crates: &["glow"],
         may_be_unsafe: true,
+    },
+    // Shaders as text: needs no GL.
+    Room {
+        name: "glsl",
+        imports: &[],
+        crates: &[],
+        may_be_unsafe: false,
     },
     Room {
         name: "scene",

@@ -180,6 +180,54 @@ fn a_saved_shader_is_seen_and_a_broken_one_is_told() {
     assert_eq!(viewer.end().code(), Some(0));
 }
 
+/// A saved shader that never ends is not taken: the window goes on with the one it had, and says why.
+#[test]
+fn a_saved_shader_that_never_ends_is_refused() {
+    let folder = work_folder("window-endless");
+    let glsl = folder.join("mine");
+    std::fs::create_dir(&glsl).unwrap();
+    let good = std::fs::read_to_string("glsl/cs541/lighting.frag").unwrap();
+    let file = glsl.join("lighting.frag");
+    std::fs::write(&file, &good).unwrap();
+    let desktop = Desktop::new(&folder);
+    let size = [300, 300];
+    let options = "--set rotation=off --size 300x300 --glsl mine";
+    let mut viewer = Viewer::open(&desktop, options);
+    let line = format!("shadowlab screenshot cs541 {options}");
+    let before = headless(&folder, &line);
+    let is_before = |screen: &RgbImage| is_same(&before, screen);
+    assert!(is_before(&desktop.wait_for_screen(size, is_before)));
+
+    // Each round of the loop reads a texture often, since llvmpipe gives a loop up after some rounds.
+    let read = "sum += texture(usampler, vec2(sum, 0.5 * sum)).r; ".repeat(200);
+    let endless = format!(
+        "#version 330 core\nuniform sampler2D usampler;\nout vec4 frag_color;\nvoid main(void)\n{{\nfloat sum = 0.0;\n\
+         for (int i = 0; sum >= 0.0; i = 1 - i) {{ {read} if (sum > 100.0) sum = float(i); }}\nfrag_color = vec4(sum);\n}}\n"
+    );
+    std::fs::write(&file, endless).unwrap();
+    let told = |screen: &RgbImage| {
+        let [r, g, b] = screen.get_pixel(2, 2).0;
+        r > 60 && g < 60 && b < 60
+    };
+    assert!(!told(&before.to_rgb8()), "the control: no message yet");
+    // Meanwhile the window lives.
+    viewer.press("w");
+    let moved = headless(
+        &folder,
+        "shadowlab screenshot cs541 --set rotation=off --size 300x300 --keys w",
+    );
+    let is_moved = |screen: &RgbImage| is_same(&moved, screen);
+    assert!(is_moved(&desktop.wait_for_screen(size, is_moved)));
+    let screen = desktop.wait_for_screen(size, told);
+    assert!(told(&screen));
+    let lower_half =
+        |picture: &RgbImage| DynamicImage::from(picture.clone()).crop_imm(0, 150, 300, 150);
+    let kept = lower_half(&moved.to_rgb8());
+    assert_eq!(compare(&kept, &lower_half(&screen), SHARE_BEYOND), Ok(()));
+    viewer.press("Escape");
+    assert_eq!(viewer.end().code(), Some(0));
+}
+
 #[test]
 fn at_rest_the_program_sleeps() {
     let folder = work_folder("window-rest");

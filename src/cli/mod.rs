@@ -1,6 +1,8 @@
 //! The commands and their options.
 
+mod check_shaders;
 mod check_trace;
+mod child;
 mod compare;
 mod gallery;
 mod measuring;
@@ -12,11 +14,12 @@ mod timings;
 mod values;
 
 use std::io::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec3;
-use shadowlab::gl::trace;
+use shadowlab::gl::{self, trace};
 use shadowlab::hard;
 use shadowlab::labs::{self, Probe, Show, parse_keys};
 use shadowlab::window::{self, Api, View};
@@ -54,6 +57,8 @@ enum Command {
     Measure(measuring::MeasureCommand),
     /// Hold my own program's picture against the lab's, and tell which mistake explains it
     Compare(compare::CompareCommand),
+    /// Hold my own shaders against the lab's: names, types and texture units, then the picture
+    CheckShaders(check_shaders::CheckShadersCommand),
     /// Hold a dump of my own program's GL calls against the handout's steps
     CheckTrace(check_trace::CheckTraceCommand),
     /// Show the classic mistakes, each beside the right picture: a page
@@ -128,8 +133,14 @@ struct Place {
 
 impl Cli {
     pub fn run(self) -> Result<ExitCode> {
+        if child::is_one() {
+            child::end_with_parent();
+        } else if let Some((folder, limit)) = self.students_shaders() {
+            return child::again(&folder, limit);
+        }
         match self.command {
             Command::Compare(options) => return options.run(),
+            Command::CheckShaders(options) => return options.run(),
             Command::CheckTrace(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
@@ -145,10 +156,29 @@ impl Cli {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The exit code of every error, where it does not hang on the error: of compare and check-trace it is diff's.
+    /// The folder of shaders, and the limit, of a command that draws a picture or a few with them.
+    fn students_shaders(&self) -> Option<(PathBuf, u64)> {
+        let changes = match &self.command {
+            Command::Screenshot(options) => options.changes(),
+            Command::Trace(Trace { state, .. }) | Command::Explain(Explain { state, .. }) => {
+                &state.changes
+            }
+            Command::Truth(options) => options.changes(),
+            Command::Measure(options) => options.changes(),
+            Command::Compare(options) => options.changes(),
+            Command::CheckShaders(options) => return Some(options.folder_and_limit()),
+            // These draw for as long as a person likes, and try the shaders first.
+            Command::View(_) | Command::Report(_) => return None,
+            Command::Mistakes(_) | Command::CheckTrace(_) => return None,
+            Command::Labs | Command::Devices => return None,
+        };
+        Some((changes.glsl.clone()?, changes.limit))
+    }
+
+    /// The exit code of every error, where it does not hang on the error: of those that compare it is diff's.
     pub fn trouble_code(&self) -> Option<u8> {
         match self.command {
-            Command::Compare(_) => Some(compare::TROUBLE),
+            Command::Compare(_) | Command::CheckShaders(_) => Some(compare::TROUBLE),
             Command::CheckTrace(_) => Some(check_trace::TROUBLE),
             _ => None,
         }
@@ -162,6 +192,9 @@ impl ViewOptions {
         let _mistake = state.make_mistake()?;
         let inputs = parse_keys(&state.changes.keys)?;
         let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
+        if let Some(folder) = &state.changes.glsl {
+            child::try_first(&state, folder)?;
+        }
         window::open(View {
             handout,
             size: state.changes.size.or(scene.size).unwrap_or(handout.size),
@@ -195,7 +228,10 @@ impl Trace {
         let mut running = self.state.start(&self.drawing, first, true)?;
         running.draw(self.drawing.frames, Show::Picture)?;
         running.timings.lap("frames");
-        print(&trace::to_c(&trace::take()))
+        let calls = trace::take();
+        // Before anything is told: a student's shader that never ends is met here.
+        gl::finish(&running.context.gl);
+        print(&trace::to_c(&calls))
     }
 }
 
@@ -209,6 +245,11 @@ impl Explain {
         check_light(labs::find(&self.state.lab)?, self.light)?;
         self.state.changes.refuse_mistake("explain")?;
         let mut running = self.state.start(&self.drawing, &[], false)?;
+        if running.lab.has_students_test() {
+            eprintln!(
+                "note: what is explained is the lab's own shadow test, not that of the folder's shaders"
+            );
+        }
         running.draw(self.drawing.frames - 1, Show::Picture)?;
         let explanation = running
             .lab

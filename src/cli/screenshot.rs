@@ -57,6 +57,10 @@ impl Screenshot {
         print(&format!("{}\n", written.display()))
     }
 
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
     /// Another size, if one is given, and another renderer.
     pub fn draw_on(&mut self, size: Option<[u32; 2]>, device: &Choice) {
         self.changes.size = size.or(self.changes.size);
@@ -83,31 +87,27 @@ impl Screenshot {
         )?;
 
         let mut running = state.start(&self.drawing, &[], false)?;
-        let show = match self.show {
-            Shown::Visibility => Show::Visibility { light: self.light },
-            _ => Show::Picture,
-        };
-        running.draw(self.drawing.frames, show)?;
-        running.write(self.show, self.light, &output)?;
+        running.write(self.drawing.frames, self.show, self.light, &output)?;
         running.timings.lap("file");
         Ok(output)
     }
 }
 
 impl Running {
-    fn write(&mut self, shown: Shown, light: usize, output: &Path) -> Result<()> {
-        let gl = &self.context.gl;
+    fn write(&mut self, frames: u32, shown: Shown, light: usize, output: &Path) -> Result<()> {
         let notes = picture::notes(&self.context.renderer);
+        if shown == Shown::Visibility {
+            let pixels = self.visibility(frames, light)?.visibility;
+            self.timings.lap("frames");
+            return picture::write_grey(output, &pixels, &notes);
+        }
+        self.draw(frames, Show::Picture)?;
+        let gl = &self.context.gl;
         match shown {
-            Shown::Picture => {
+            Shown::Picture | Shown::Visibility => {
                 let pixels = gl::read_rgb(gl, self.size);
                 self.timings.lap("frames");
                 picture::write_rgb(output, &pixels, &notes)
-            }
-            Shown::Visibility => {
-                let pixels = gl::read_grey(gl, self.size);
-                self.timings.lap("frames");
-                picture::write_grey(output, &pixels, &notes)
             }
             Shown::ShadowMap | Shown::DepthRaw => {
                 let map = self.lab.shadow_texture(light)?;

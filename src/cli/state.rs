@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use image::RgbImage;
+use shadowlab::compare::Shadows;
 use shadowlab::gl;
 use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
 use shadowlab::mistakes;
+use shadowlab::own_shaders;
 use shadowlab::scene::{self, Scene};
 use shadowlab::{Error, Result};
 
@@ -23,7 +25,7 @@ const FRAME: f64 = 1.0 / 60.0;
 const HARD: &str = "hard:";
 
 /// Which state of which lab.
-#[derive(Args)]
+#[derive(Clone, Args)]
 pub struct State {
     /// The lab's name, as `shadowlab labs` lists it
     pub lab: String,
@@ -61,6 +63,9 @@ pub struct Changes {
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     pub glsl: Option<PathBuf>,
+    /// Seconds that drawing with the shaders of --glsl, or one picture of compare --batch, may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    pub limit: u64,
     /// Make one of the classic mistakes; `shadowlab labs` lists those that a lab can make
     #[arg(long, value_name = "NAME", conflicts_with = "glsl")]
     mistake: Option<String>,
@@ -130,11 +135,26 @@ impl Changes {
 
     /// Whether the setting of that name is given a value.
     pub fn sets(&self, name: &str) -> bool {
-        let names = self
-            .set
-            .iter()
-            .filter_map(|assignment| assignment.split_once('='));
-        names.map(|(name, _)| name).any(|given| given == name)
+        self.given(name).is_some()
+    }
+
+    /// The value that a setting is given; the last one counts.
+    fn given(&self, name: &str) -> Option<&str> {
+        let assignments = self.set.iter().rev();
+        let mut pairs = assignments.filter_map(|assignment| assignment.split_once('='));
+        pairs
+            .find(|(given, _)| *given == name)
+            .map(|(_, value)| value)
+    }
+
+    /// The shadow test, where it is not the handout's.
+    pub fn other_test(&self) -> Option<&str> {
+        self.given("shadow_test").filter(|test| *test != "handout")
+    }
+
+    /// Gives a setting another value, after those that the user gives.
+    pub fn set(&mut self, assignment: &str) {
+        self.set.push(assignment.to_owned());
     }
 }
 
@@ -206,6 +226,11 @@ impl State {
             return Ok(None);
         };
         let (_, made) = mistakes::find(name, &self.lab)?;
+        if let Some(test) = self.changes.other_test() {
+            return Err(Error::usage(format!(
+                "--mistake {name}: it is one of the handout's test, expected shadow_test=handout, found {test}"
+            )));
+        }
         Ok(Some(edits::set(made.edits)))
     }
 
@@ -226,6 +251,19 @@ impl State {
         }
         if let Some(name) = &self.changes.mistake {
             options.extend(["--mistake".to_owned(), name.clone()]);
+        }
+        options
+    }
+
+    /// The options but for the size.
+    pub fn all_options(&self) -> Vec<String> {
+        let mut options = self.options();
+        let Changes { keys, time, .. } = &self.changes;
+        if !keys.is_empty() {
+            options.extend(["--keys".to_owned(), keys.clone()]);
+        }
+        if *time > 0.0 {
+            options.extend(["--time".to_owned(), time.to_string()]);
         }
         options
     }
@@ -304,5 +342,16 @@ impl Running {
             self.lab.render(&self.context.gl, show)?;
         }
         gl::check_errors(&self.context.gl, "drawing")
+    }
+
+    /// Where the light (from 1) arrives in the last of so many frames, by the state's own test.
+    pub fn visibility(&mut self, frames: u32, light: usize) -> Result<Shadows> {
+        if frames > 1 {
+            self.draw(frames - 1, Show::Picture)?;
+            self.lab.advance(FRAME);
+        }
+        let shadows = own_shaders::visibility(self.lab.as_mut(), &self.context, self.size, light)?;
+        gl::check_errors(&self.context.gl, "drawing")?;
+        Ok(shadows)
     }
 }

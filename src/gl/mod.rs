@@ -7,7 +7,8 @@
 
 mod check;
 pub mod edits;
-mod mesh;
+pub mod inspect;
+pub mod mesh;
 mod overlay;
 mod read;
 mod shader;
@@ -16,6 +17,7 @@ mod timer;
 pub mod trace;
 mod uniform;
 
+pub use glow::Context;
 use glow::HasContext;
 
 pub use check::{check_errors, check_framebuffer};
@@ -25,8 +27,10 @@ pub use read::{
     read_depth, read_depths, read_float_in_bytes, read_float_of_one_vertex, read_grey, read_rgb,
     read_stencil,
 };
-pub use shader::{Program, Shaders};
-pub use texture::{Textures, distinct, largest_texture, levels, solid_texture, texture};
+pub use shader::{Made, MadeOf, Program, Shaders, programs_made, stands_for_both};
+pub use texture::{
+    Textures, distinct, flat_depths, largest_texture, levels, solid_texture, texture,
+};
 pub use timer::{PassTime, finish, time_passes};
 pub use uniform::Value;
 

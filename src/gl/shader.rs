@@ -1,16 +1,54 @@
 //! Shader files to linked programs; a failure names file, line and the driver's message.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use glow::HasContext;
 
 use super::edits;
+use super::inspect::{self, Stage};
 use super::mesh::ATTRIBUTES;
 use super::uniform::{Uniform, Value};
+use crate::glsl::Scan;
 use crate::scene::reading;
 use crate::{Error, Result};
+
+thread_local! {
+    static MADE: RefCell<Option<Vec<Made>>> = const { RefCell::new(None) };
+}
+
+/// A program, as a lab has made it.
+pub struct Made {
+    pub handle: glow::Program,
+    /// The vertex shader first.
+    pub files: Vec<MadeOf>,
+    /// What the lab sets, or may set.
+    pub uniforms: Vec<&'static str>,
+}
+
+/// A shader file of a program.
+pub struct MadeOf {
+    pub stage: Stage,
+    /// As the lab calls it.
+    pub name: String,
+    pub text: String,
+}
+
+/// Every program that is made meanwhile, on this thread.
+pub fn programs_made<T>(make: impl FnOnce() -> T) -> (T, Vec<Made>) {
+    MADE.set(Some(Vec::new()));
+    let made = make();
+    (made, MADE.take().unwrap_or_default())
+}
+
+/// Whether a student's file has functions of the lab's own file in it, and so stands for both: a handout shows its shader
+/// as one file, and the lab may have its shadow test in another.
+pub fn stands_for_both(students: &Scan, labs: &Scan) -> bool {
+    let mut functions = labs.functions.iter();
+    functions.any(|lab| students.functions.iter().any(|own| own.name == lab.name))
+}
 
 /// A lab's shader files: those in the binary, or a student's own of the same names in their place. A file that several
 /// labs share has its folder in its name.
@@ -61,19 +99,21 @@ impl Shaders {
         {
             let text = reading::read_text(&path, reading::TEXT_LIMIT)?;
             return Ok(Source {
+                name: name.to_owned(),
                 path,
                 text: Cow::Owned(text),
                 students: true,
                 edited: false,
             });
         }
-        let (_, text) = self
+        let (name, text) = self
             .builtin
             .iter()
             .find(|(known, _)| *known == name)
             .expect("a lab asks for its own shaders only");
         let edited = edits::shader(name, text);
         Ok(Source {
+            name: (*name).to_owned(),
             path: match name.contains('/') {
                 true => Path::new("glsl").join(name),
                 false => Path::new("glsl").join(self.lab).join(name),
@@ -91,6 +131,7 @@ fn is_there(path: &Path) -> bool {
 }
 
 struct Source {
+    name: String,
     path: PathBuf,
     text: Cow<'static, str>,
     students: bool,
@@ -127,10 +168,11 @@ impl Program {
         fragments: &[&str],
         uniforms: &[&'static str],
     ) -> Result<Self> {
-        let mut sources = vec![(glow::VERTEX_SHADER, shaders.read(vertex)?)];
+        let mut sources = vec![(Stage::Vertex, shaders.read(vertex)?)];
         for fragment in fragments {
-            sources.push((glow::FRAGMENT_SHADER, shaders.read(fragment)?));
+            sources.push((Stage::Fragment, shaders.read(fragment)?));
         }
+        leave_out_what_is_there_twice(&mut sources);
         let paths = sources.iter().map(|(_, source)| source.path.display());
         let names: Vec<_> = paths.map(|path| path.to_string()).collect();
         let names = names.join(" with ");
@@ -142,8 +184,8 @@ impl Program {
                 gl.delete_program(handle);
                 error
             };
-            for (kind, source) in &sources {
-                let shader = compile(gl, *kind, source).map_err(refused)?;
+            for (stage, source) in &sources {
+                let shader = compile(gl, *stage, source).map_err(refused)?;
                 gl.attach_shader(handle, shader);
                 gl.delete_shader(shader);
             }
@@ -153,10 +195,7 @@ impl Program {
             gl.link_program(handle);
             if !gl.get_program_link_status(handle) {
                 let log = gl.get_program_info_log(handle);
-                let message = log
-                    .lines()
-                    .find(|line| !line.is_empty())
-                    .unwrap_or("no message");
+                let (_, message) = inspect::first_message(&log);
                 return Err(refused(Error::gl(format!(
                     "{names}: does not link: {message}"
                 ))));
@@ -173,12 +212,23 @@ impl Program {
                     inactive.join(", ")
                 ))));
             }
-            if !inactive.is_empty() && students {
+            // Who has the programs told looks for himself.
+            let is_told = MADE.with_borrow(Option::is_some);
+            if !inactive.is_empty() && students && !is_told {
                 eprintln!(
                     "note: {names}: without effect, misspelt or unused: {}",
                     inactive.join(", ")
                 );
             }
+            MADE.with_borrow_mut(|made| {
+                if let Some(made) = made {
+                    made.push(Made {
+                        handle,
+                        files: sources.into_iter().map(MadeOf::new).collect(),
+                        uniforms: uniforms.to_vec(),
+                    });
+                }
+            });
             Ok(Self {
                 handle,
                 uniforms: looked_up,
@@ -212,57 +262,37 @@ impl Program {
     }
 }
 
-fn compile(gl: &glow::Context, kind: u32, source: &Source) -> Result<glow::Shader> {
-    unsafe {
-        let shader = gl.create_shader(kind).map_err(Error::gl)?;
-        gl.shader_source(shader, &source.text);
-        gl.compile_shader(shader);
-        if gl.get_shader_compile_status(shader) {
-            return Ok(shader);
+impl MadeOf {
+    fn new((stage, source): (Stage, Source)) -> Self {
+        Self {
+            stage,
+            name: source.name,
+            text: source.text.into_owned(),
         }
-        let log = gl.get_shader_info_log(shader);
-        gl.delete_shader(shader);
-        let (line, message) = first_message(&log);
-        Err(Error::input(
-            &source.path,
-            line,
-            format!("does not compile: {message}"),
-        ))
     }
 }
 
-/// The first message of a driver's log, and the line of the shader that it speaks of.
-///
-/// Mesa writes `0:12(5): error: …`, NVIDIA `0(12) : error …`, AMD and Intel `ERROR: 0:12: …`.
-fn first_message(log: &str) -> (Option<usize>, &str) {
-    let message = log
-        .lines()
-        .find(|line| !line.trim().is_empty())
-        .unwrap_or("no message");
-    let place = message.strip_prefix("ERROR: ").unwrap_or(message);
-    let after_string_number = place.trim_start_matches(|c: char| c.is_ascii_digit());
-    let digits = after_string_number.strip_prefix([':', '(']).map(|rest| {
-        rest.split(|c: char| !c.is_ascii_digit())
-            .next()
-            .unwrap_or("")
+/// The lab's own files whose functions a student's file has.
+fn leave_out_what_is_there_twice(sources: &mut Vec<(Stage, Source)>) {
+    let students = sources.iter().filter(|(_, source)| source.students);
+    let students: Vec<_> = students
+        .map(|(stage, source)| (*stage, source.text.clone()))
+        .collect();
+    let students: Vec<_> = students
+        .iter()
+        .map(|(stage, text)| (*stage, Scan::new(text)))
+        .collect();
+    sources.retain(|(stage, source)| {
+        let scan = Scan::new(&source.text);
+        let is_there =
+            |(own_stage, own): &(Stage, Scan)| own_stage == stage && stands_for_both(own, &scan);
+        source.students || !students.iter().any(is_there)
     });
-    (digits.and_then(|digits| digits.parse().ok()), message)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::first_message;
-
-    #[test]
-    fn the_line_is_found_in_every_dialect() {
-        for log in [
-            "0:12(5): error: `x' undeclared",
-            "0(12) : error C1503: undefined variable",
-            "ERROR: 0:12: 'x' : undeclared identifier",
-        ] {
-            assert_eq!(first_message(log).0, Some(12), "{log}");
-        }
-        assert_eq!(first_message("error: linking failed").0, None);
-        assert_eq!(first_message("\n\n").1, "no message");
-    }
+fn compile(gl: &glow::Context, stage: Stage, source: &Source) -> Result<glow::Shader> {
+    inspect::compile(gl, stage, &source.text).map_err(|log| {
+        let (line, message) = inspect::first_message(&log);
+        Error::input(&source.path, line, format!("does not compile: {message}"))
+    })
 }

@@ -118,3 +118,36 @@ pub fn solid_texture(gl: &glow::Context) -> Result<glow::Texture> {
     }
     Ok(white)
 }
+
+/// A depth map of `size` × `size` texels that holds the same everywhere, also a depth that no first pass could store: 1e9
+/// is behind everything, −1e9 before everything.
+pub fn flat_depths(gl: &glow::Context, size: u32, depth: f32) -> Result<glow::Texture> {
+    let depths = vec![depth; size as usize * size as usize];
+    let size = size as i32;
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::gl)?;
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        // Floats alone are not held to 0…1.
+        gl.tex_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            glow::DEPTH_COMPONENT32F as i32,
+            size,
+            size,
+            0,
+            glow::DEPTH_COMPONENT,
+            glow::FLOAT,
+            PixelUnpackData::Slice(Some(bytemuck::cast_slice(&depths))),
+        );
+        for filter in [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER] {
+            gl.tex_parameter_i32(glow::TEXTURE_2D, filter, glow::NEAREST as i32);
+        }
+        for axis in [glow::TEXTURE_WRAP_S, glow::TEXTURE_WRAP_T] {
+            gl.tex_parameter_i32(glow::TEXTURE_2D, axis, glow::CLAMP_TO_EDGE as i32);
+        }
+        // Whichever component a shader reads.
+        let swizzle = [glow::RED, glow::RED, glow::RED, glow::ONE].map(|c| c as i32);
+        gl.tex_parameter_i32_slice(glow::TEXTURE_2D, glow::TEXTURE_SWIZZLE_RGBA, &swizzle);
+        Ok(texture)
+    }
+}

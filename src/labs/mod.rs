@@ -44,6 +44,8 @@ pub struct Handout {
     /// The key of the handout that ends the viewer, as escape does. Without a window it changes nothing.
     pub quit: Option<Key>,
     pub settings: &'static [Setting],
+    /// The names and texts of its shader files, which a student's may replace.
+    pub shaders: &'static [(&'static str, &'static str)],
     /// What the handout shows, in its order.
     pub stages: &'static [Stage],
     /// What `shadowlab report` compares where the command line does not say.
@@ -125,6 +127,12 @@ pub trait Lab {
     /// Compiles the shaders again, from their files. After an error the lab draws on with those it had.
     fn reload(&mut self, gl: &glow::Context) -> Result<()>;
 
+    /// Whether the present test is in a student's own shader, together with the lighting. Then [`Show::Visibility`] shows
+    /// the lab's test and not the student's, whose visibility is to be read from pictures.
+    fn has_students_test(&self) -> bool {
+        false
+    }
+
     /// A light (from 1) that is off has no shadow to ask for.
     fn check_light(&self, _light: usize) -> Result<()> {
         Ok(())
@@ -154,6 +162,13 @@ pub enum Show {
     /// surface, whichever way it faces the light; 1 where there is no surface.
     Visibility {
         light: usize,
+    },
+    /// The picture, with a map that holds this depth everywhere in place of the light's (counted from 1): far behind
+    /// everything it leaves everything lit, and far before everything, all that the light reaches in shadow. A lab without
+    /// maps draws its picture.
+    FlatMap {
+        light: usize,
+        depth: f32,
     },
 }
 

@@ -60,6 +60,18 @@ pub const MISTAKES: &[Mistake] = &[
         }],
     },
     Mistake {
+        name: "accumulator_not_cleared",
+        symptom: "ghosts of the frames before, brighter and brighter; the first frame is right where the driver gives cleared \
+                  memory",
+        cause: "the accumulation buffer keeps what the frames before added up",
+        fix: "clear it before the first of a frame's pictures is accumulated",
+        made: &[Made {
+            lab: "eecs487",
+            place: "4. fbo_accum(weight)",
+            edits: edits! { call "glClearBufferfv" in "soft shadows": Make::Nothing; },
+        }],
+    },
+    Mistake {
         name: "shadow_matrix_row_major",
         symptom: "shadows are sheared out of place, or gone",
         cause: "the shadow matrix is uploaded row by row",

@@ -13,6 +13,7 @@ use crate::gl::{self, PassTime};
 use crate::headless::Headless;
 use crate::labs::{Handout, Lab, Settings, Show};
 use crate::measure::Figures;
+use crate::own_shaders;
 use crate::progress::Progress;
 use crate::report::sweep::Plan;
 use crate::report::thumbnail;
@@ -189,11 +190,10 @@ pub(super) fn prepare(
     let mut figures = Vec::new();
     let mut thumbnails = Vec::new();
     for light in 1..=subject.handout.lights {
-        lab.render(gl, Show::Visibility { light })?;
+        let shadows = own_shaders::visibility(lab, subject.context, subject.size, light)?;
         gl::check_errors(gl, "drawing")?;
-        let visibility = gl::read_grey(gl, subject.size);
         let map = lab.shadow_texture(light).ok().map(|map| map.scale);
-        let (wrong, mistakes) = truths.measure(lab.now(), light, &visibility, map.as_ref());
+        let (wrong, mistakes) = truths.measure(lab.now(), light, shadows, map.as_ref());
         figures.push(wrong);
         thumbnails.push(thumbnail::png(&mistakes));
     }

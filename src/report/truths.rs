@@ -1,10 +1,9 @@
 //! The truth of every scene that a report meets, cast once each.
 
-use image::GrayImage;
-
+use crate::compare::Shadows;
 use crate::ground_truth::{Rays, Truth};
 use crate::labs::MapScale;
-use crate::measure::{Figures, Measure};
+use crate::measure::{Figures, Measure, only_known};
 use crate::scene::Scene;
 
 /// A scene under one of its lights, and what is in shadow there.
@@ -29,12 +28,12 @@ impl Truths {
         }
     }
 
-    /// The errors of a visibility picture of the scene, and the picture that shows them. `light` counts from 1.
+    /// The errors of the shadows in a picture of the scene, as far as they are known, and the picture that shows them. `light` counts from 1.
     pub fn measure(
         &mut self,
         scene: Scene,
         light: usize,
-        visibility: &GrayImage,
+        shadows: Shadows,
         map: Option<&MapScale>,
     ) -> (Figures, image::RgbImage) {
         let asked_before =
@@ -52,7 +51,8 @@ impl Truths {
             self.known.len() - 1
         });
         let Known { rays, truth, .. } = &self.known[index];
-        Measure::new(rays, truth).measure(visibility, map)
+        let (visibility, _) = only_known(shadows.visibility, &shadows.known, truth);
+        Measure::new(rays, truth).measure(&visibility, map)
     }
 }
 

@@ -9,6 +9,7 @@
 //! | `panels` | what stands over the picture: keys, messages, the depth map |
 //! | `text` | letters into an image |
 //! | `shot` | F12: a file, and the command line that draws it again |
+//! | `trial` | a saved shader, tried in a process of its own |
 //! | `watch` | the student's folder of shaders |
 
 #[cfg(target_os = "linux")]
@@ -23,6 +24,8 @@ mod panels;
 mod shot;
 #[cfg(target_os = "linux")]
 mod text;
+#[cfg(target_os = "linux")]
+mod trial;
 #[cfg(target_os = "linux")]
 mod viewer;
 #[cfg(target_os = "linux")]

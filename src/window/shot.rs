@@ -23,11 +23,23 @@ pub struct State<'a> {
     pub time: f64,
 }
 
+/// What a shell is told to draw the state again.
+pub fn command_line(state: &State) -> String {
+    let words = words(state);
+    let words = ["shadowlab".to_owned()].into_iter().chain(words);
+    words
+        .map(|word| quoted(&word))
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// The words behind the program's name.
+///
 /// All keys come before all of the time, however they fell, unless the lab's keys ask what time it is: then there are
 /// waits among them.
-pub fn command_line(state: &State) -> String {
+pub fn words(state: &State) -> Vec<String> {
     let [width, height] = state.size;
-    let mut words: Vec<String> = ["shadowlab", "screenshot", state.lab, "--size"]
+    let mut words: Vec<String> = ["screenshot", state.lab, "--size"]
         .map(str::to_owned)
         .to_vec();
     words.push(format!("{width}x{height}"));
@@ -39,8 +51,7 @@ pub fn command_line(state: &State) -> String {
     if state.time > 0.0 {
         words.extend(["--time".to_owned(), state.time.to_string()]);
     }
-    let quoted: Vec<_> = words.iter().map(|word| quoted(word)).collect();
-    quoted.join(" ")
+    words
 }
 
 /// As a shell takes it.

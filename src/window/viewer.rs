@@ -14,6 +14,7 @@ use winit::keyboard::ModifiersState;
 use super::canvas::Canvas;
 use super::keys::{self, Own};
 use super::panels::{Panels, Shown};
+use super::trial::{self, Trial};
 use super::{View, shot, watch};
 use crate::labs::{Button, Handout, Input, Lab, Pointer, Show};
 use crate::{Result, gl, picture};
@@ -49,6 +50,8 @@ pub struct Viewer {
     /// A screenshot is wanted of the next frame.
     shot: bool,
     reload_at: Option<Instant>,
+    /// Of the shaders that were saved last.
+    trial: Option<Trial>,
 
     /// What draws the same picture again.
     options: Vec<String>,
@@ -122,6 +125,7 @@ impl Viewer {
             shown: Shown::default(),
             shot: false,
             reload_at: None,
+            trial: None,
             options: view.options,
             inputs: view.inputs,
             time: view.time,
@@ -259,7 +263,11 @@ impl Viewer {
         let now = Instant::now();
         if self.reload_at.is_some_and(|at| at <= now) {
             self.reload_at = None;
-            self.reload();
+            self.try_shaders();
+        }
+        if let Some(tried) = self.trial.as_mut().and_then(Trial::result) {
+            self.trial = None;
+            self.reload(tried);
         }
         if !self.is_visible() || !(self.moves() || self.most_frames.is_some()) {
             self.last_frame = None;
@@ -268,7 +276,8 @@ impl Viewer {
             self.next_frame = None;
             self.canvas.window.request_redraw();
         }
-        match [self.reload_at, self.next_frame]
+        let look_again = self.trial.as_ref().map(|_| now + trial::PATIENCE);
+        match [self.reload_at, self.next_frame, look_again]
             .into_iter()
             .flatten()
             .min()
@@ -296,8 +305,20 @@ impl Viewer {
         self.reload_at = Some(Instant::now() + QUIET);
     }
 
-    fn reload(&mut self) {
-        let error = self.lab.reload(&self.canvas.gl).err();
+    /// Has the state drawn with the saved shaders elsewhere, where no window hangs on it.
+    fn try_shaders(&mut self) {
+        // The one that still draws has older shaders.
+        self.trial = None;
+        match Trial::start(&self.state()) {
+            Ok(trial) => self.trial = Some(trial),
+            Err(error) => self.shown.message = Some(error.to_string()),
+        }
+    }
+
+    /// Takes the saved shaders, if they have drawn a picture; else goes on with those that it has.
+    fn reload(&mut self, tried: Result<()>) {
+        let reloaded = tried.and_then(|()| self.lab.reload(&self.canvas.gl));
+        let error = reloaded.err();
         self.shown.message = error.map(|error| error.to_string());
         self.canvas.window.request_redraw();
     }
@@ -375,18 +396,22 @@ impl Viewer {
         };
     }
 
-    /// The lab's picture as it stands in the back buffer, before anything is drawn over it.
-    fn shoot(&self) -> Result<()> {
-        let pixels = gl::read_rgb(&self.canvas.gl, self.size);
-        let name = shot::free_name(self.handout.name);
-        picture::write_rgb(&name, &pixels, &picture::notes(&self.canvas.renderer))?;
-        let line = shot::command_line(&shot::State {
+    fn state(&self) -> shot::State<'_> {
+        shot::State {
             lab: self.handout.name,
             size: self.size,
             options: &self.options,
             inputs: &self.inputs,
             time: self.time - self.waited,
-        });
+        }
+    }
+
+    /// The lab's picture as it stands in the back buffer, before anything is drawn over it.
+    fn shoot(&self) -> Result<()> {
+        let pixels = gl::read_rgb(&self.canvas.gl, self.size);
+        let name = shot::free_name(self.handout.name);
+        picture::write_rgb(&name, &pixels, &picture::notes(&self.canvas.renderer))?;
+        let line = shot::command_line(&self.state());
         tell(&format!("{}\n{line}", name.display()));
         Ok(())
     }

@@ -35,7 +35,7 @@ fn is_saved(event: &Event) -> bool {
     };
     let is_shader = |path: &Path| {
         path.extension()
-            .is_some_and(|kind| kind == "vert" || kind == "frag")
+            .is_some_and(|kind| kind == "vert" || kind == "frag" || kind == "glsl")
     };
     changes && event.paths.iter().any(|path| is_shader(path))
 }

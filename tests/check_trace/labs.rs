@@ -61,7 +61,7 @@ const NOT_IN_CALLS: &[&str] = &[
 fn state(lab: &str, mistake: &str) -> &'static [&'static str] {
     match (lab, mistake) {
         ("cs541", "light_along_up") => &["--scene", "hard:overhead"],
-        ("eecs487", "weights_wrong") => &["--keys", "f"],
+        ("eecs487", "weights_wrong" | "accumulator_not_cleared") => &["--keys", "f"],
         _ => &[],
     }
 }

@@ -100,9 +100,9 @@ const WRONG: &[Row] = &[
     row("dsa45-viewport_not_restored", "with the window's size", Missing, Some("viewport_not_restored"), "width = 400"),
     row("dsa45-viewport_not_set", "with the map's size", OtherArguments, Some("viewport_not_set"), "width = 200"),
 
-    row("planar-accumulator_not_cleared", "the accumulation buffer is cleared", Missing, None, "glAccum("),
+    row("planar-accumulator_not_cleared", "the accumulation buffer is cleared", Missing, Some("accumulator_not_cleared"), "glAccum("),
     row("planar-accumulator_of_8_bits", "more than 8 bits", OtherArguments, None, "GL_RGBA8"),
-    row("planar-fbo-accumulator_not_cleared", "the accumulator is cleared", Missing, None, "glEnd()"),
+    row("planar-fbo-accumulator_not_cleared", "the accumulator is cleared", Missing, Some("accumulator_not_cleared"), "glEnd()"),
     row("planar-fbo-not_returned", "fbo_accum_return", Missing, None, "glEnd()"),
     row("planar-fbo-weights_wrong", "fbo_accum: blended", OtherArguments, Some("weights_wrong"), "glBlendColor("),
     row("planar-no_polygon_offset", "glPolygonOffset", Missing, Some("no_polygon_offset"), "glDraw"),

@@ -125,10 +125,6 @@ pub const HARD: Fault = Fault {
     effect: "shadows are hard",
     fix: "the key f of the handout's program switches to soft shadows",
 };
-pub const GHOSTS: Fault = Fault {
-    effect: "the pictures of earlier frames shine through: ghosts, and ever brighter",
-    fix: "clear the accumulation buffer before the first picture is added",
-};
 pub const SUM_THEN_DIVIDE: Fault = Fault {
     effect: "a buffer that holds [-1, 1] runs over: most of the picture is dark (Fig. 2(b))",
     fix: "weight each picture by 1/numJitters as it is added",

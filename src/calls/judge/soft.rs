@@ -1,6 +1,6 @@
 //! Soft shadows: pictures with the light at different places, averaged in an accumulation buffer of either kind.
 
-use super::faults::{BANDS, GHOSTS, HARD, NOT_RETURNED, SUM_THEN_DIVIDE};
+use super::faults::{BANDS, HARD, NOT_RETURNED, SUM_THEN_DIVIDE};
 use crate::calls::frame::{Draw, Frame, Pass, Step, StepKind};
 use crate::calls::handouts::{FBO, SOFT};
 use crate::calls::objects::Attachment;
@@ -64,7 +64,7 @@ fn accumulation_buffer(steps: &mut Steps, calls: &[(u64, &str, f64)], frame: &Fr
         None if replaces => steps.found(step, first, "GL_LOAD replaces what it held"),
         None => {
             let told = "nothing clears it before the first GL_ACCUM";
-            steps.fault(step, Mark::Missing, first, told, &GHOSTS);
+            steps.mistake(step, Mark::Missing, first, "accumulator_not_cleared", told);
         }
     }
     let returned = calls
@@ -111,7 +111,13 @@ fn framebuffer_object(steps: &mut Steps, blended: &[(&Pass, &Draw)], frame: &Fra
             let told = format!(
                 "framebuffer {accumulator} is not cleared before the first picture is added"
             );
-            steps.fault(step, Mark::Missing, first.line, told, &GHOSTS);
+            steps.mistake(
+                step,
+                Mark::Missing,
+                first.line,
+                "accumulator_not_cleared",
+                told,
+            );
         }
     }
 

@@ -5,7 +5,7 @@
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitCode, Stdio};
+use std::process::{ExitCode, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -17,12 +17,7 @@ use shadowlab::progress::Progress;
 use shadowlab::{Error, Result, error, picture};
 
 use super::{CompareCommand, DIFFERENT, SAME, TROUBLE};
-use crate::cli::print;
-
-/// What a picture's process may take, in KiB of addresses: a picture of 16,384 × 16,384 pixels and the driver.
-const MOST_KIB: u64 = 6 << 20;
-/// How often a process is looked at.
-const PATIENCE: Duration = Duration::from_millis(10);
+use crate::cli::{child, print};
 
 struct Row {
     file: String,
@@ -37,7 +32,6 @@ pub fn run(command: &CompareCommand, folder: &Path, handout: &Handout) -> Result
     let output = command.output.clone().unwrap_or_else(|| "compared".into());
     let files = files(folder)?;
     std::fs::create_dir_all(&output).map_err(|cause| Error::writing(&output, cause))?;
-    let program = std::env::current_exe().map_err(|cause| Error::reading("shadowlab", cause))?;
     let cores = thread::available_parallelism().map_or(1, usize::from);
 
     let progress = Progress::new("comparing", files.len() as u64);
@@ -45,7 +39,7 @@ pub fn run(command: &CompareCommand, folder: &Path, handout: &Handout) -> Result
     let work = || {
         let mut rows = Vec::new();
         while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-            rows.push(compare(command, &program, handout, file, &output));
+            rows.push(compare(command, handout, file, &output));
             progress.add(1);
         }
         rows
@@ -107,13 +101,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-fn compare(
-    command: &CompareCommand,
-    program: &Path,
-    handout: &Handout,
-    file: &Path,
-    output: &Path,
-) -> Row {
+fn compare(command: &CompareCommand, handout: &Handout, file: &Path, output: &Path) -> Row {
     let name = file
         .file_name()
         .unwrap_or_default()
@@ -130,7 +118,7 @@ fn compare(
     ];
     words.extend(command.state_options(handout).into_iter().map(Into::into));
     let started = Instant::now();
-    let found = limited(program, &words, Duration::from_secs(command.limit));
+    let found = limited(&words, Duration::from_secs(command.changes.limit));
     Row {
         file: name,
         found,
@@ -140,25 +128,17 @@ fn compare(
 }
 
 /// Runs the program on itself, within limits.
-fn limited(
-    program: &Path,
-    words: &[std::ffi::OsString],
-    limit: Duration,
-) -> std::result::Result<Value, String> {
+fn limited(words: &[std::ffi::OsString], limit: Duration) -> std::result::Result<Value, String> {
     let failed = |cause: std::io::Error| format!("cannot start a process for it: {cause}");
-    let mut child = Command::new("sh")
-        .args(["-c", &format!("ulimit -v {MOST_KIB}; exec \"$0\" \"$@\"")])
-        .arg(program)
-        .args(words)
-        .stdin(Stdio::null())
+    let mut child = child::command(words)
+        .map_err(|error| error.to_string())?
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .map_err(failed)?;
-    // Pipes have an end: they are read while the process writes.
-    let out = read_all(child.stdout.take().expect("it is piped"));
-    let err = read_all(child.stderr.take().expect("it is piped"));
-    let status = wait(&mut child, limit);
+    let out = child::read_all(child.stdout.take().expect("it is piped"));
+    let err = child::read_all(child.stderr.take().expect("it is piped"));
+    let status = child::wait(&mut child, limit);
     let (out, err) = (out.join(), err.join());
     let (out, err) = (out.unwrap_or_default(), err.unwrap_or_default());
     match status {
@@ -183,31 +163,6 @@ fn limited(
         }
         Ok(None) => Err(format!("took longer than {} s", limit.as_secs())),
         Err(cause) => Err(failed(cause)),
-    }
-}
-
-fn read_all(mut pipe: impl std::io::Read + Send + 'static) -> thread::JoinHandle<Vec<u8>> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // What a killed process has not written is not missed.
-        let _ = pipe.read_to_end(&mut bytes);
-        bytes
-    })
-}
-
-/// None: it was still running at its limit, and was killed.
-fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<std::process::ExitStatus>> {
-    let started = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
-        }
-        if started.elapsed() > limit {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
-        }
-        thread::sleep(PATIENCE);
     }
 }
 

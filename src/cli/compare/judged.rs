@@ -1,6 +1,8 @@
 //! What was found of a picture, as text and as JSON.
 
 use std::fmt;
+use std::io::Write as _;
+use std::path::Path;
 
 use image::RgbImage;
 use serde_json::{Value, json};
@@ -8,6 +10,7 @@ use shadowlab::compare::{Difference, Forgiven, SAME};
 use shadowlab::diagnosis::{Diagnosis, Explanation};
 use shadowlab::labs::Handout;
 use shadowlab::measure::Figures;
+use shadowlab::{Result, picture};
 
 pub struct Judged {
     pub name: String,
@@ -16,6 +19,8 @@ pub struct Judged {
     pub options: Vec<String>,
     pub forgiven: Vec<Forgiven>,
     pub notes: Vec<String>,
+    /// What was found in the shaders that drew it.
+    pub findings: Vec<String>,
     /// Not of a pair, whose shading is not looked at.
     pub difference: Option<Difference>,
     pub diagnosis: Option<Diagnosis>,
@@ -44,6 +49,10 @@ impl Read {
         let wrong = self.figures.false_shadow.interior + self.figures.false_light.interior;
         wrong as f64 / self.valid().max(1) as f64
     }
+
+    pub fn is_right(&self) -> bool {
+        self.wrong() <= SAME
+    }
 }
 
 impl Judged {
@@ -51,8 +60,14 @@ impl Judged {
     pub fn is_same(&self) -> bool {
         match (&self.difference, &self.read) {
             (Some(difference), _) => difference.is_same(),
-            (None, read) => read.as_ref().is_some_and(|read| read.wrong() <= SAME),
+            (None, read) => read.as_ref().is_some_and(Read::is_right),
         }
+    }
+
+    /// Writes its page.
+    pub fn write_page(&self, output: &Path) -> Result<()> {
+        let page = super::page::page(self).into_string();
+        picture::write_whole(output, |file| file.write_all(page.as_bytes()))
     }
 
     pub fn verdict(&self) -> &'static str {

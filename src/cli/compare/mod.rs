@@ -1,29 +1,28 @@
 //! `shadowlab compare`: a student's picture, held against the lab's.
 
+mod alone;
 mod batch;
 mod judged;
+mod lab;
+mod load;
 mod page;
+mod pair;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use image::{DynamicImage, GrayImage, Luma, RgbImage, imageops};
-use shadowlab::compare::{Difference, Forgiven, Matching, TOLERANCE, TOLERANCE_OF_JPEG};
-use shadowlab::compare::{Shadows, forgive, resized};
-use shadowlab::diagnosis::{Diagnosis, Suspects};
-use shadowlab::ground_truth::{Label, Rays};
+use image::RgbImage;
+use shadowlab::compare::Shadows;
 use shadowlab::headless::Choice;
-use shadowlab::labs::{self, Handout, Show};
-use shadowlab::measure::Measure;
-use shadowlab::mistakes::{self, Edits};
-use shadowlab::scene::{reading, texture};
-use shadowlab::{Error, Result, gl, picture};
+use shadowlab::labs::{self, Handout};
+use shadowlab::{Error, Result, picture};
 
 use super::print;
-use super::state::{Changes, Drawing, Running, State};
-use super::values::{check_light, parse_crop};
-use judged::{Judged, Read};
+use super::state::{Changes, State};
+use super::values::parse_crop;
+pub use judged::Judged;
+use load::Loaded;
 
 /// What the pictures are the same within their tolerance, differ, or could not be compared, as diff has it.
 pub const SAME: u8 = 0;
@@ -52,27 +51,55 @@ pub struct CompareCommand {
     /// Write a page (LAB.html), or with --batch a folder of them
     #[arg(short, long = "output", value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Which of the lab's lights the shadows are of
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    light: usize,
     /// Compare every picture of this folder, each in a process of its own
     #[arg(long, value_name = "DIR", conflicts_with_all = ["json", "reference"])]
     batch: Option<PathBuf>,
-    /// Seconds that a picture of --batch may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, requires = "batch")]
-    limit: u64,
     /// Which renderer draws: auto, software, or part of a renderer's name
     #[arg(long, value_name = "NAME", default_value = "auto")]
     device: Choice,
 }
 
 impl CompareCommand {
+    pub fn changes(&self) -> &Changes {
+        &self.changes
+    }
+
+    /// The command for a picture that is drawn in this state, and not loaded.
+    pub fn of_drawn(changes: &Changes, device: &Choice) -> Self {
+        Self {
+            what: Vec::new(),
+            changes: changes.clone(),
+            reference: None,
+            crop: None,
+            strict: false,
+            json: false,
+            output: None,
+            batch: None,
+            device: device.clone(),
+        }
+    }
+
+    /// Holds a picture that was drawn against the lab's. `shadows` are those of a light (from 1), where they are known.
+    pub fn drawn(
+        &self,
+        handout: &'static Handout,
+        name: &Path,
+        picture: RgbImage,
+        shadows: Option<(usize, Shadows)>,
+    ) -> Result<Judged> {
+        let drawn = Loaded {
+            picture,
+            is_jpeg: false,
+            notes: Vec::new(),
+        };
+        alone::judge_loaded(self, handout, name, drawn, shadows)
+    }
+
     pub fn run(self) -> Result<ExitCode> {
         let Some((lab, pictures)) = self.what.split_last() else {
             unreachable!("clap asks for one");
         };
         let handout = labs::find(&lab.to_string_lossy())?;
-        check_light(handout, self.light)?;
         self.changes.refuse_mistake("compare")?;
         match (&self.batch, pictures) {
             (Some(folder), []) => batch::run(&self, folder, handout),
@@ -97,13 +124,11 @@ impl CompareCommand {
             picture::check_name(output, &["html"])?;
         }
         let judged = match without {
-            None => self.picture(handout, mine)?,
-            Some(without) => self.pair(handout, mine, without)?,
+            None => alone::judge(self, handout, mine)?,
+            Some(without) => pair::judge(self, handout, mine, without)?,
         };
         if let Some(output) = &self.output {
-            picture::write_whole(output, |file| {
-                std::io::Write::write_all(file, page::page(&judged).into_string().as_bytes())
-            })?;
+            judged.write_page(output)?;
         }
         print(&match self.json {
             true => format!("{:#}\n", judged.json()),
@@ -115,199 +140,23 @@ impl CompareCommand {
         }))
     }
 
-    /// A picture with shadows against the lab's.
-    fn picture(&self, handout: &'static Handout, path: &Path) -> Result<Judged> {
-        let Loaded {
-            picture: mine,
-            is_jpeg,
-            mut notes,
-        } = self.load(path)?;
-        let mut state = self.state(handout, &mine);
-        let mut forgiven = Vec::new();
-        let mut tolerance = TOLERANCE;
-        if is_jpeg && !self.strict {
-            tolerance = TOLERANCE_OF_JPEG;
-            forgiven.push(Forgiven::Jpeg);
-        }
-        let (mine, right) = match &self.reference {
-            None => (mine, self.draw(&state, Edits::default())?),
-            Some(reference) => {
-                let reference = self.load(reference)?.picture;
-                let size: [u32; 2] = reference.dimensions().into();
-                let found: [u32; 2] = mine.dimensions().into();
-                state.changes.size = Some(size);
-                if found == size {
-                    (mine, reference)
-                } else if self.strict {
-                    let [width, height] = size;
-                    let message = format!(
-                        "{}×{} pixels, expected {width}×{height}",
-                        found[0], found[1]
-                    );
-                    return Err(Error::input(path, None, message));
-                } else {
-                    forgiven.push(Forgiven::Size(found));
-                    (resized(&mine, size), reference)
-                }
-            }
-        };
-        let given = mine.clone();
-        let (difference, mine) = if self.strict {
-            (
-                Difference::new(&mine, &right, Matching::Exact, tolerance),
-                mine,
-            )
-        } else {
-            let found = forgive(mine, &right);
-            let reference = found.darkened_reference.as_ref().unwrap_or(&right);
-            let difference =
-                Difference::new(&found.mine, reference, Matching::WithinAPixel, tolerance);
-            forgiven.extend(&found.forgiven);
-            (difference, found.brightened())
-        };
-        let diagnosis = match difference.is_same() {
-            true => Diagnosis::Right,
-            false => Suspects::new(handout.name, |edits| self.draw(&state, edits))?.diagnose(
-                &given,
-                tolerance,
-                self.strict,
-            ),
-        };
-        let lit = self.draw_lit(&state)?;
-        let dark = self.draw(&state, mistakes::all_in_shadow(handout.name))?;
-        let read = self.read(&state, Shadows::between(&mine, &lit, &dark))?;
-        if read.is_none() {
-            notes.push(format!(
-                "the shadows of {} lights cannot be told apart in one picture: no figures of them",
-                handout.lights
-            ));
-        }
-        Ok(Judged {
-            name: path.display().to_string(),
-            handout,
-            options: state.options(),
-            forgiven,
-            notes,
-            difference: Some(difference),
-            diagnosis: Some(diagnosis),
-            read,
-            mine,
-            reference: right,
-        })
+    /// The window whose picture this may be: the scene's, or the course's.
+    fn window(&self, handout: &Handout) -> Result<[u32; 2]> {
+        let scene = self.state(handout).students_scene()?;
+        Ok(scene.and_then(|scene| scene.size).unwrap_or(handout.size))
     }
 
-    /// A picture with shadows and one without: the shadows alone.
-    fn pair(&self, handout: &'static Handout, on: &Path, off: &Path) -> Result<Judged> {
-        let (on_loaded, off_loaded) = (self.load(on)?, self.load(off)?);
-        let notes = [on_loaded.notes, off_loaded.notes].concat();
-        let (mine, without) = (on_loaded.picture, off_loaded.picture);
-        let ([width, height], found): ([u32; 2], [u32; 2]) =
-            (mine.dimensions().into(), without.dimensions().into());
-        if found != [width, height] {
-            let message = format!(
-                "{}×{} pixels, expected {width}×{height} as {} has",
-                found[0],
-                found[1],
-                on.display()
-            );
-            return Err(Error::input(off, None, message));
-        }
-        let state = self.state(handout, &mine);
-        let lit = self.draw_lit(&state)?;
-        let mut forgiven = Vec::new();
-        let (mut mine, mut without) = (mine, without);
-        if !self.strict {
-            forgiven = forgive(without.clone(), &lit).forgiven;
-            // Their shading is not looked at, and their curve is the same in both.
-            forgiven.retain(|found| *found == Forgiven::UpsideDown);
-        }
-        if !forgiven.is_empty() {
-            mine = imageops::flip_vertical(&mine);
-            without = imageops::flip_vertical(&without);
-        }
-        let read = self.read(&state, Shadows::ratio(&mine, &without))?;
-        let Some(read) = read else {
-            return Err(Error::usage(format!(
-                "compare: {} lights cast shadows, which a pair of pictures cannot tell apart, expected one: \
-                 --set lights=…",
-                handout.lights
-            )));
-        };
-        Ok(Judged {
-            name: format!("{} and {}", on.display(), off.display()),
-            handout,
-            options: state.options(),
-            forgiven,
-            notes,
-            difference: None,
-            diagnosis: None,
-            read: Some(read),
-            mine,
-            reference: self.draw(&state, Edits::default())?,
-        })
-    }
-
-    /// A picture, as far as it is asked for, and what is odd about it.
-    fn load(&self, path: &Path) -> Result<Loaded> {
-        let bytes = reading::read(path, reading::PICTURE_LIMIT)?;
-        let picture = texture::decode(path, &bytes, texture::MOST_BYTES)?;
-        if is_jpeg(&bytes) && is_cut_off(&bytes) {
-            let message = "found a JPEG that is cut off, expected a whole one";
-            return Err(Error::input(path, None, message));
-        }
-        let mut notes = Vec::new();
-        if picture.pixels().any(|pixel| pixel.0[3] < 255) {
-            notes.push(format!(
-                "{}: its alpha is left out: a window shows the colors without it",
-                path.display()
-            ));
-        }
-        let mut picture = DynamicImage::from(picture).into_rgb8();
-        if let Some([x, y, width, height]) = self.crop {
-            let [right, bottom] =
-                [[x, width], [y, height]].map(|[from, size]| from.saturating_add(size));
-            if right > picture.width() || bottom > picture.height() {
-                return Err(Error::usage(format!(
-                    "--crop {x},{y},{width}x{height}: {} has {}×{} pixels",
-                    path.display(),
-                    picture.width(),
-                    picture.height()
-                )));
-            }
-            picture = imageops::crop_imm(&picture, x, y, width, height).to_image();
-        }
-        Ok(Loaded {
-            picture,
-            is_jpeg: is_jpeg(&bytes),
-            notes,
-        })
-    }
-
-    /// The lab's state, at the picture's size.
-    fn state(&self, handout: &Handout, mine: &RgbImage) -> State {
-        let mut changes = self.changes.clone();
-        changes.size = changes.size.or(Some(mine.dimensions().into()));
+    fn state(&self, handout: &Handout) -> State {
         State {
             lab: handout.name.to_owned(),
-            changes,
+            changes: self.changes.clone(),
         }
     }
 
     /// The options of one picture's comparison, as another command line would repeat them.
     fn state_options(&self, handout: &Handout) -> Vec<String> {
-        let state = State {
-            lab: handout.name.to_owned(),
-            changes: self.changes.clone(),
-        };
-        let mut options = state.options();
-        let changes = &self.changes;
-        if !changes.keys.is_empty() {
-            options.extend(["--keys".to_owned(), changes.keys.clone()]);
-        }
-        if changes.time > 0.0 {
-            options.extend(["--time".to_owned(), changes.time.to_string()]);
-        }
-        if let Some([width, height]) = changes.size {
+        let mut options = self.state(handout).all_options();
+        if let Some([width, height]) = self.changes.size {
             options.extend(["--size".to_owned(), format!("{width}x{height}")]);
         }
         if let Some([x, y, width, height]) = self.crop {
@@ -316,81 +165,6 @@ impl CompareCommand {
         if self.strict {
             options.push("--strict".to_owned());
         }
-        options.extend(["--light".to_owned(), self.light.to_string()]);
         options
     }
-
-    fn start(&self, state: &State) -> Result<Running> {
-        state.start(&Drawing::on(&self.device), &[], false)
-    }
-
-    fn draw(&self, state: &State, with: Edits) -> Result<RgbImage> {
-        state.picture(&self.device, with)
-    }
-
-    /// Without shadows.
-    fn draw_lit(&self, state: &State) -> Result<RgbImage> {
-        let handout = labs::find(&state.lab)?;
-        let Some(edits) = mistakes::none_in_shadow(handout.name) else {
-            let mut running = self.start(state)?;
-            running.lab.settings().set("shadows=off")?;
-            running.draw(1, Show::Picture)?;
-            return Ok(gl::read_rgb(&running.context.gl, running.size));
-        };
-        self.draw(state, edits)
-    }
-
-    /// The shadows against the truth, if they are of one light.
-    fn read(&self, state: &State, shadows: Shadows) -> Result<Option<Read>> {
-        let running = self.start(state)?;
-        let handout = labs::find(&state.lab)?;
-        let is_on = |light: &usize| running.lab.check_light(*light).is_ok();
-        let lights: Vec<usize> = (1..=handout.lights).filter(is_on).collect();
-        let &[light] = lights.as_slice() else {
-            return Ok(None);
-        };
-        let rays = Rays::new(&running.lab.now(), light - 1);
-        let truth = rays.truth(running.size);
-        let Shadows { visibility, known } = shadows;
-        let mut filled: GrayImage = visibility;
-        let mut judged = 0;
-        for ((pixel, known), label) in filled.pixels_mut().zip(known).zip(&truth.labels) {
-            match (label, known) {
-                (Label::NotValid, _) => (),
-                (_, true) => judged += 1,
-                // What cannot be read is not called wrong.
-                (Label::Lit, false) => *pixel = Luma([255]),
-                (Label::Shadowed, false) => *pixel = Luma([0]),
-            }
-        }
-        let map = running.lab.shadow_texture(light).ok().map(|map| map.scale);
-        let (mut figures, mistakes) = Measure::new(&rays, &truth).measure(&filled, map.as_ref());
-        // The lab's, not the picture's.
-        figures.bias = None;
-        Ok(Some(Read {
-            judged,
-            figures,
-            mistakes,
-        }))
-    }
-}
-
-/// A picture from a file, as far as it is asked for.
-struct Loaded {
-    picture: RgbImage,
-    is_jpeg: bool,
-    /// What is odd about it.
-    notes: Vec<String>,
-}
-
-fn is_jpeg(bytes: &[u8]) -> bool {
-    bytes.starts_with(&[0xff, 0xd8])
-}
-
-/// A JPEG ends with a marker of its own, behind the last of those that begin a scan; decoders fill up what is missing.
-fn is_cut_off(bytes: &[u8]) -> bool {
-    const SCAN: [u8; 2] = [0xff, 0xda];
-    const END: [u8; 2] = [0xff, 0xd9];
-    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
-    last(END) < last(SCAN)
 }

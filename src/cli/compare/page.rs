@@ -15,11 +15,11 @@ const STYLE: &str = "
     body { font: 16px/1.45 sans-serif; margin: 2rem auto; max-width: 84rem; padding: 0 1rem; color: #222; }
     .same { background: #d9f0dd; } .different { background: #fbe3d6; }
     .same, .different { padding: 0.5rem 0.8rem; font-weight: bold; }
-    section { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1.5rem; }
-    figure { margin: 0; } figcaption { font-size: 0.9rem; }
-    img { width: 100%; border: 1px solid #ccc; image-rendering: pixelated; }
-    dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 1rem; max-width: 60rem; }
-    dt { color: #666; } dd { margin: 0; }
+    figure { display: inline-block; vertical-align: top; width: 20rem; margin: 0 1.4rem 1.4rem 0; }
+    figcaption { font-size: 0.9rem; }
+    img { width: 20rem; border: 1px solid #ccc; image-rendering: pixelated; }
+    td, th { vertical-align: top; text-align: left; padding: 0.1rem 0.8rem 0.1rem 0; }
+    th { color: #666; font-weight: normal; white-space: nowrap; }
     pre { font-size: 0.85rem; overflow-x: auto; }
     code { font-size: 0.85rem; color: #555; }
     .red { color: #b01818; } .blue { color: #2048c0; }
@@ -47,6 +47,10 @@ pub fn page(judged: &Judged) -> Markup {
                 @if let Some(difference) = &judged.difference { p { (difference_words(difference)) } }
                 @for forgiven in &judged.forgiven { p { "Forgiven: " (forgiven) } }
                 @for note in &judged.notes { p { "Note: " (note) } }
+                @if !judged.findings.is_empty() {
+                    h2 { "The shaders" }
+                    ul { @for finding in &judged.findings { li { code { (finding) } } } }
+                }
                 (diagnosis(judged))
                 (pictures(judged))
                 @if let Some(read) = &judged.read {
@@ -84,12 +88,12 @@ fn explanation(rank: usize, found: &Explanation) -> Markup {
         }
         @if rank == 0 {
             @for (mistake, made) in &found.mistakes {
-                dl {
-                    dt { "mistake" } dd { (mistake.name) }
-                    dt { "looks like" } dd { (mistake.symptom) }
-                    dt { "comes from" } dd { (mistake.cause) }
-                    dt { "mended by" } dd { (mistake.fix) }
-                    dt { "handout" } dd { (made.place) }
+                table {
+                    tr { th { "mistake" } td { (mistake.name) } }
+                    tr { th { "looks like" } td { (mistake.symptom) } }
+                    tr { th { "comes from" } td { (mistake.cause) } }
+                    tr { th { "mended by" } td { (mistake.fix) } }
+                    tr { th { "handout" } td { (made.place) } }
                 }
             }
         }
@@ -101,6 +105,9 @@ fn pictures(judged: &Judged) -> Markup {
         section {
             (figure(&judged.mine, "mine", html! { "mine, after what was forgiven" }))
             (figure(&judged.reference, "the reference", html! { "the reference" }))
+            @if let Some(Diagnosis::Explained(found)) = &judged.diagnosis {
+                (figure(&found[0].picture, "the mistake", html! { "the lab with " (names(&found[0])) }))
+            }
             @if judged.difference.is_some() {
                 (figure(
                     &heat_map(&judged.mine, &judged.reference),

@@ -73,11 +73,11 @@ fn draw(
 
 const STYLE: &str = "
     body { font: 16px/1.45 sans-serif; margin: 2rem auto; max-width: 70rem; padding: 0 1rem; color: #222; }
-    article { display: grid; grid-template-columns: 14rem 14rem 1fr; gap: 0.4rem 1.2rem; margin: 1.6rem 0; }
-    h3 { grid-column: 1 / -1; margin: 0; font-family: monospace; }
-    figure { margin: 0; font-size: 0.85rem; } img { width: 100%; border: 1px solid #ccc; }
-    dl { margin: 0; display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 0.8rem; align-content: start; }
-    dt { color: #666; } dd { margin: 0; }
+    h3 { margin: 1.6rem 0 0.4rem; font-family: monospace; }
+    td, th { vertical-align: top; text-align: left; }
+    td.picture { width: 14rem; padding-right: 1.2rem; font-size: 0.85rem; }
+    img { width: 14rem; border: 1px solid #ccc; }
+    th { color: #666; font-weight: normal; white-space: nowrap; padding-right: 0.8rem; }
     code { font-size: 0.8rem; color: #555; }
 ";
 
@@ -116,32 +116,34 @@ fn article(lab: &Handout, entry: &Entry) -> Markup {
         ..
     } = entry.mistake;
     html! {
-        article {
-            h3 { (name) }
-            @match &entry.options {
-                Some(_) => {
+        h3 { (name) }
+        table {
+            tr {
+                @if entry.options.is_some() {
                     @for (file, caption) in [("right", "right"), ("wrong", "with the mistake")] {
                         @let file = format!("{}/{name}-{file}.png", lab.name);
-                        figure {
+                        td.picture {
                             a href=(file) { img src=(file) alt=(caption) loading="lazy"; }
-                            figcaption { (caption) }
+                            (caption)
                         }
                     }
                 }
-                None => {
-                    p { "No picture of this lab shows it, in any state that was tried." }
-                    p { "It is for a check of the calls." }
-                }
-            }
-            div {
-                dl {
-                    dt { "looks like" } dd { (symptom) }
-                    dt { "comes from" } dd { (cause) }
-                    dt { "mended by" } dd { (fix) }
-                    dt { "handout" } dd { (entry.made.place) }
-                }
-                @if let Some(options) = &entry.options {
-                    code { "shadowlab view " (lab.name) " " (quoted(options)) " --mistake " (name) }
+                td {
+                    @if entry.options.is_none() {
+                        p {
+                            "No picture of this lab shows it, in any state that was tried. It is for a check of the \
+                             calls."
+                        }
+                    }
+                    table {
+                        tr { th { "looks like" } td { (symptom) } }
+                        tr { th { "comes from" } td { (cause) } }
+                        tr { th { "mended by" } td { (fix) } }
+                        tr { th { "handout" } td { (entry.made.place) } }
+                    }
+                    @if let Some(options) = &entry.options {
+                        code { "shadowlab view " (lab.name) " " (quoted(options)) " --mistake " (name) }
+                    }
                 }
             }
         }

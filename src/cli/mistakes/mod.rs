@@ -1,7 +1,9 @@
 //! `shadowlab mistakes`: the classic mistakes, each beside the right picture; and the proof that `compare` finds them.
 
 mod gallery;
+mod perturbed;
 mod proof;
+mod proof_page;
 mod states;
 
 use std::path::PathBuf;
@@ -20,7 +22,7 @@ pub struct MistakesCommand {
     /// The folder to write: a page of the mistakes, or of the proof
     #[arg(short, long = "output", value_name = "DIR", default_value = "mistakes")]
     output: PathBuf,
-    /// Let `compare` find every mistake in this many random states of the lab, and count how often it is right
+    /// Let `compare` find every mistake in this many random states that show it, and count how often it is right
     #[arg(long, value_name = "STATES", value_parser = clap::value_parser!(u32).range(1..=1000))]
     prove: Option<u32>,
     /// The random states' seed

@@ -19,8 +19,8 @@ use shadowlab::report::{
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
 
-use crate::cli::print;
 use crate::cli::state::{Changes, Drawing, State};
+use crate::cli::{child, print};
 
 #[derive(Args)]
 pub struct ReportCommand {
@@ -194,6 +194,9 @@ impl ReportCommand {
             changes: self.changes.clone(),
         };
         self.changes.refuse_mistake("report")?;
+        if let Some(folder) = &self.changes.glsl {
+            child::try_first(&state, folder)?;
+        }
         let mut running = state.start(&Drawing::on(&self.device), &[], true)?;
         let mut subject = Subject {
             handout,

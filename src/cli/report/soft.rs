@@ -9,6 +9,7 @@ use shadowlab::report::{Machine, Subject};
 use shadowlab::{Error, Result};
 
 use super::{ReportCommand, raised_by_ctrl_c};
+use crate::cli::child;
 use crate::cli::print;
 use crate::cli::state::{Drawing, State};
 
@@ -37,6 +38,9 @@ impl ReportCommand {
             lab: handout.name.to_owned(),
             changes: self.changes.clone(),
         };
+        if let Some(folder) = &self.changes.glsl {
+            child::try_first(&state, folder)?;
+        }
         let mut running = state.start(&Drawing::on(&self.device), &[], false)?;
         let progress = Progress::new("measuring", steps(handout, rounds));
         let mut subject = Subject {

@@ -65,6 +65,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     quit: None,
     settings: SETTINGS,
+    shaders: programs::SHADERS,
     stages: stages::STAGES,
     comparisons: stages::COMPARISONS,
     lights: 1,
@@ -187,7 +188,7 @@ impl Aueb7 {
     /// The shadow map in its present size, and the program that shows the test alone.
     fn prepare_exercises_test(&mut self, gl: &glow::Context, show: Show) -> Result<()> {
         self.renew_shadow_fbo(gl)?;
-        if self.visibility.is_none() && show != Show::Picture {
+        if self.visibility.is_none() && matches!(show, Show::Visibility { .. }) {
             let program =
                 with_shadow_test(gl, &self.shaders, "visibility.frag", &["uniform_shadows"])?;
             self.visibility = Some(program);
@@ -297,6 +298,13 @@ impl Lab for Aueb7 {
         }
         match show {
             Show::Picture => self.draw_scene(gl),
+            Show::FlatMap { depth, .. } => {
+                let flat = gl::flat_depths(gl, self.shadow_fbo.shadow_dimensions, depth)?;
+                let own = std::mem::replace(&mut self.shadow_fbo.fbo_shadow_texture, flat);
+                self.draw_scene(gl);
+                self.shadow_fbo.fbo_shadow_texture = own;
+                unsafe { gl.delete_texture(flat) };
+            }
             Show::Visibility { .. } => self.draw_visibility(gl),
         }
         if !is_filled {
@@ -323,6 +331,10 @@ impl Lab for Aueb7 {
             offset.test.forget();
         }
         Ok(())
+    }
+
+    fn has_students_test(&self) -> bool {
+        chosen_test(&self.settings) == "handout" && self.shaders.has_own("SpotLight.frag")
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {

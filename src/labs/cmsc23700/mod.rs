@@ -41,7 +41,7 @@ use std::path::Path;
 
 use glow::HasContext;
 
-use super::chosen_test::check_map;
+use super::chosen_test::{check_map, chosen_test};
 use super::{
     Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -66,6 +66,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     quit: Some(Key::Char('q')),
     settings: SETTINGS,
+    shaders: SHADERS,
     stages: stages::STAGES,
     comparisons: stages::COMPARISONS,
     lights: 2,
@@ -273,6 +274,15 @@ impl Cmsc23700 {
         self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => self.draw_picture(gl),
+            Show::FlatMap { light, depth } => {
+                self.check_light(light)?;
+                let flat = gl::flat_depths(gl, self.shadow_maps[light - 1].size, depth)?;
+                let map = &mut self.shadow_maps[light - 1].depth_texture;
+                let own = std::mem::replace(map, flat);
+                self.draw_picture(gl);
+                self.shadow_maps[light - 1].depth_texture = own;
+                unsafe { gl.delete_texture(flat) };
+            }
             Show::Visibility { light } => {
                 self.check_light(light)?;
                 self.draw_visibility(gl, light)?;
@@ -411,6 +421,10 @@ impl Lab for Cmsc23700 {
             "lights={lights} draws no map of light {light}, expected lights={} or lights=both",
             own[light - 1]
         )))
+    }
+
+    fn has_students_test(&self) -> bool {
+        chosen_test(&self.settings) == "handout" && self.shaders.has_own("lighting.frag")
     }
 
     fn shadow_texture(&self, light: usize) -> Result<ShadowTexture> {

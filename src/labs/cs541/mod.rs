@@ -34,7 +34,7 @@ use std::path::Path;
 use glam::DVec3;
 use glow::HasContext;
 
-use super::chosen_test::check_map;
+use super::chosen_test::{check_map, chosen_test};
 use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -59,6 +59,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     quit: None,
     settings: SETTINGS,
+    shaders: programs::SHADERS,
     stages: stages::STAGES,
     comparisons: stages::COMPARISONS,
     lights: 1,
@@ -310,6 +311,14 @@ impl Lab for Cs541 {
                 self.prepare_unshadowed(gl)?;
                 self.draw_scene(gl);
             }
+            Show::FlatMap { depth, .. } => {
+                let flat = gl::flat_depths(gl, self.shadow_buffer.kind.size, depth)?;
+                let map = &mut self.shadow_buffer.depth_texture_buffer;
+                let own = std::mem::replace(map, flat);
+                self.draw_scene(gl);
+                self.shadow_buffer.depth_texture_buffer = own;
+                unsafe { gl.delete_texture(flat) };
+            }
             Show::Visibility { .. } => self.draw_visibility(gl)?,
         }
         Ok(())
@@ -337,6 +346,10 @@ impl Lab for Cs541 {
             offset.test.forget();
         }
         Ok(())
+    }
+
+    fn has_students_test(&self) -> bool {
+        chosen_test(&self.settings) == "handout" && self.shaders.has_own("lighting.frag")
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {

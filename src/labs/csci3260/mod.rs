@@ -32,7 +32,7 @@ use std::path::Path;
 use glam::{DMat4, DVec3};
 use glow::HasContext;
 
-use super::chosen_test::check_map;
+use super::chosen_test::{check_map, chosen_test};
 use super::{
     Button, Explanation, Handout, Key, Lab, MapScale, Pointer, Probe, Settings, ShadowTexture, Show,
 };
@@ -55,6 +55,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     quit: None,
     settings: SETTINGS,
+    shaders: SHADERS,
     stages: stages::STAGES,
     comparisons: stages::COMPARISONS,
     lights: 1,
@@ -261,6 +262,13 @@ impl Csci3260 {
         self.prepare_shadow_test(gl)?;
         match show {
             Show::Picture => self.use_shadow_map(gl),
+            Show::FlatMap { depth, .. } => {
+                let flat = gl::flat_depths(gl, self.target.size, depth)?;
+                let own = std::mem::replace(&mut self.target.depth_texture, flat);
+                self.use_shadow_map(gl);
+                self.target.depth_texture = own;
+                unsafe { gl.delete_texture(flat) };
+            }
             Show::Visibility { .. } => self.draw_visibility(gl)?,
         }
         Ok(())
@@ -407,6 +415,10 @@ impl Lab for Csci3260 {
             offset.test.forget();
         }
         Ok(())
+    }
+
+    fn has_students_test(&self) -> bool {
+        chosen_test(&self.settings) == "handout" && self.shaders.has_own("FragmentShaderCode.glsl")
     }
 
     fn shadow_texture(&self, _light: usize) -> Result<ShadowTexture> {

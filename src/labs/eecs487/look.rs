@@ -37,7 +37,7 @@ impl Look {
 impl Eecs487 {
     pub(super) fn look(&self, show: Show) -> Look {
         match show {
-            Show::Picture => Look {
+            Show::Picture | Show::FlatMap { .. } => Look {
                 clear: self.scene.clear,
                 ambient: self.scene.ambient,
                 diffuse: self.scene.lights[0].color,

@@ -64,6 +64,7 @@ pub static HANDOUT: Handout = Handout {
     keys: KEYS,
     quit: Some(Key::Char('q')),
     settings: SETTINGS,
+    shaders: programs::SHADERS,
     stages: stages::STAGES,
     comparisons: &[],
     lights: 1,

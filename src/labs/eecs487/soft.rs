@@ -28,7 +28,7 @@ impl Eecs487 {
             gl.clear_color(red, green, blue, 1.0);
         }
         if self.settings.choice("scene") == "ramp" {
-            if show != Show::Picture {
+            if matches!(show, Show::Visibility { .. }) {
                 return Err(Error::usage(
                     "scene=ramp casts no shadows, expected scene=room",
                 ));
