@@ -49,7 +49,7 @@ impl Call {
     }
 
     pub fn int(&self, place: usize) -> i64 {
-        self.arg(place).number() as i64
+        self.arg(place).int()
     }
 
     /// The name of an object; "0" is none.
@@ -85,6 +85,11 @@ impl Value {
             Self::Word(word) if word == "GL_ONE" || word == "GL_TRUE" => 1.0,
             _ => 0.0,
         }
+    }
+
+    /// A whole number as GL has them, of 32 bits: what is larger ends there.
+    pub fn int(&self) -> i64 {
+        i64::from(self.number() as i32)
     }
 
     pub fn id(&self) -> String {

@@ -107,6 +107,10 @@ fn hostile_dumps_end() {
     assert!(told(deep.as_bytes()).contains("expected a GL call"));
     let long = format!("1 glUniform1iv(0, 1, {{{}}})\n", "1, ".repeat(1 << 20));
     assert!(!try_check(long.as_bytes(), "cs541").unwrap().is_clean());
+    let huge = "glGetUniformLocation(1, \"map\") = 1e300\nglUseProgram(1)\n\
+                glUniform1iv(9223372036854775807, 2, {1e300, 2})\nglBindTextures(1e300, 2, {1, 2})\n\
+                glBegin(GL_POINTS)\nglEnd()\n";
+    assert!(!try_check(huge.as_bytes(), "cs541").unwrap().is_clean());
     let mut stacks = "glPushMatrix()\nglPushAttrib(1)\n".repeat(100_000);
     stacks += "glNewList(1, GL_COMPILE)\nglViewport(NAN, 1e300, -INFINITY, 3)\nglEndList()\n";
     assert!(!try_check(stacks.as_bytes(), "eecs487").unwrap().is_clean());

@@ -92,10 +92,7 @@ impl State {
 
     fn located(&mut self, call: &Call) {
         let (id, name) = (call.id(0), call.word(1).to_owned());
-        let location = call
-            .result
-            .as_ref()
-            .map_or(-1, |result| result.number() as i64);
+        let location = call.result.as_ref().map_or(-1, |result| result.int());
         let known = self.programs.get(&id).is_some_and(|program| {
             program
                 .names
@@ -154,12 +151,7 @@ impl State {
         } else {
             match function.trim_start_matches("glUniform") {
                 "1i" => Value::Int(call.int(place)),
-                "1iv" => Value::Int(
-                    call.arg(place + 1)
-                        .items()
-                        .first()
-                        .map_or(0, |n| n.number() as i64),
-                ),
+                "1iv" => Value::Int(call.arg(place + 1).items().first().map_or(0, |n| n.int())),
                 "1f" => Value::Float(call.number(place)),
                 "1fv" => Value::Float(
                     call.arg(place + 1)
@@ -177,7 +169,7 @@ impl State {
             // `maps[0]`, and those behind it.
             if function.ends_with("1iv") {
                 for (more, unit) in call.arg(place + 1).items().iter().enumerate().take(32) {
-                    let unit = Value::Int(unit.number() as i64);
+                    let unit = Value::Int(unit.int());
                     program
                         .values
                         .insert(location + more as i64, Set::at(line, unit));
