@@ -5,10 +5,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use image::RgbImage;
+use image::{RgbImage, imageops};
 
 use crate::Result;
-use crate::compare::{Envelope, Forgiven, SAME, TOLERANCE, forgive, unlikeness};
+use crate::compare::{Envelope, Forgiven, SAME, TOLERANCE, forgive, resized, unlikeness};
 use crate::mistakes::{self, Edits, Made, Mistake};
 
 /// A mistake explains a picture that is nearer to its own by this factor than to the right one.
@@ -121,6 +121,25 @@ impl Suspects {
         })
     }
 
+    /// The pictures in another size.
+    pub fn resized(&self, size: [u32; 2]) -> Self {
+        let right = resized(&self.right, size);
+        let groups = self.groups.iter().map(|group| {
+            let picture = resized(&group.picture, size);
+            Group {
+                mistakes: group.mistakes.clone(),
+                range: Envelope::new(&picture),
+                picture,
+            }
+        });
+        Self {
+            right_range: Envelope::new(&right),
+            right,
+            groups: groups.collect(),
+            unseen: self.unseen.clone(),
+        }
+    }
+
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
     pub fn diagnose(&self, mine: &RgbImage, tolerance: u8, strict: bool) -> Diagnosis {
         // What is left, and whether the picture was turned for it.
@@ -139,10 +158,12 @@ impl Suspects {
         if wrong <= SAME {
             return Diagnosis::Right;
         }
+        let turned = imageops::flip_vertical(mine);
         let mut nearest: Vec<&Group> = self.groups.iter().collect();
         nearest.sort_by_cached_key(|group| {
+            let either_way = [mine, &turned].map(|mine| unlikeness(mine, &group.picture));
             // In thousandths of a level: whole numbers have an order.
-            (1000.0 * unlikeness(mine, &group.picture)) as u64
+            (1000.0 * either_way[0].min(either_way[1])) as u64
         });
         let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
             let (left, upside_down) = left(&group.picture, &group.range);

@@ -332,8 +332,10 @@ fn a_students_own_shadow_test_takes_the_place_of_the_handouts() {
         [bench.visibility().into_raw(), bench.picture().into_raw()]
     };
     let hard = ["filter=none"];
-    let mut bench = bench(&hard);
-    let handouts = [bench.visibility().into_raw(), bench.picture().into_raw()];
+    let handouts = {
+        let mut bench = bench(&hard);
+        [bench.visibility().into_raw(), bench.picture().into_raw()]
+    };
     assert_eq!(with_test(own, &hard), handouts);
     let other_way_round = own.replace("shadow_map_z <", "shadow_map_z >");
     assert_ne!(other_way_round, own);
@@ -341,11 +343,15 @@ fn a_students_own_shadow_test_takes_the_place_of_the_handouts() {
     assert!(wrong[0] != handouts[0] && wrong[1] != handouts[1]);
 
     // What is wrong in it is told with its name and line.
+    // In a context that is still there.
+    let bench = bench(&hard);
     let folder = work_folder("aueb7_glsl_wrong");
     let path = folder.join("is_point_in_shadow.frag");
     std::fs::write(&path, own.replace("return 1.0;", "return 1.0 1.0;")).unwrap();
     let start = labs::find("aueb7").unwrap().start;
-    let started = start(&bench.context.gl, example(), Some(&folder));
+    // The first context is no longer current, since others came after it.
+    let fresh = Bench::new("aueb7", SIZE, &[]);
+    let started = start(&fresh.context.gl, example(), Some(&folder));
     let told = started.err().unwrap().to_string();
     let line = 1 + own
         .lines()
@@ -355,7 +361,7 @@ fn a_students_own_shadow_test_takes_the_place_of_the_handouts() {
     assert!(told.contains(&place), "{told}");
     // A file without one of the functions does not link.
     std::fs::write(&path, own.replace("pcf_9(", "pcf_8(")).unwrap();
-    let started = start(&bench.context.gl, example(), Some(&folder));
+    let started = start(&fresh.context.gl, example(), Some(&folder));
     let told = started.err().unwrap().to_string();
     assert!(
         told.contains("does not link") && told.contains("pcf_9"),

@@ -147,6 +147,16 @@ const WRONG: &[(&str, i32, &[&str])] = &[
     ),
     ("screenshot cs541 --keys w<", 2, &["closing", "<lt>"]),
     (
+        "screenshot cs541 --keys <Set:filtre=nearest>",
+        2,
+        &["filtre", "did you mean \"filter\""],
+    ),
+    (
+        "screenshot cs541 --keys <Set:filter>",
+        2,
+        &["<Set:filter>", "<Set:name=value>"],
+    ),
+    (
         "screenshot cs541 -o picture.jpg",
         2,
         &["picture.jpg", "ends in .png"],

@@ -7,6 +7,7 @@ use std::process::{Command, Output};
 
 use common::work_folder;
 use image::codecs::jpeg::JpegEncoder;
+use image::imageops::FilterType;
 use image::{Rgb, RgbImage, Rgba, RgbaImage, imageops};
 use serde_json::Value;
 use shadowlab::labs::LABS;
@@ -480,6 +481,20 @@ fn a_scaled_picture_is_diagnosed_in_its_window() {
             first(&found).contains(&"viewport_not_restored"),
             "{size}: {found}"
         );
+    }
+    // The right one is the same, whatever filter has scaled it.
+    let drawn = shadowlab(&folder, "screenshot cs541 -o whole.png");
+    assert!(drawn.status.success());
+    let whole = image::open(folder.join("whole.png")).unwrap().into_rgb8();
+    for filter in [
+        FilterType::Triangle,
+        FilterType::CatmullRom,
+        FilterType::Lanczos3,
+    ] {
+        let smaller = imageops::resize(&whole, 375, 375, filter);
+        smaller.save(folder.join("right.png")).unwrap();
+        let (code, found) = compare(&folder, "right.png cs541");
+        assert_eq!(code, 0, "{filter:?}: {found}");
     }
     // In a window that had another shape it has another picture.
     let (_, found) = compare(&folder, "smaller.png csci3260 --size 600x600");

@@ -3,15 +3,18 @@
 mod common;
 mod hard;
 
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
 use common::{Bench, differing};
+use glam::{DMat4, DVec3};
 use hard::{Case, cases, five_shapes};
 use shadowlab::gl::trace;
-use shadowlab::ground_truth::Rays;
+use shadowlab::ground_truth::{Label, Rays};
 use shadowlab::labs;
 use shadowlab::measure::{Figures, Measure};
-use shadowlab::scene::{LightKind, Scene};
+use shadowlab::scene::{LightKind, Scene, rotate, shapes};
 
 const SIZE: [u32; 2] = [320, 240];
 
@@ -114,6 +117,75 @@ fn no_pixel_of_a_hard_case_is_wrong() {
         let found = figures(lab_for(&scene), scene, &["shadow_test=exact"]);
         assert_eq!(wrong(&found), [0, 0], "{name}: {found}");
         assert!(found.ambiguous < 100, "{name}: {found}");
+    }
+}
+
+/// A folder with the test's shader, edited.
+fn edited(name: &str, from: &str, to: &str) -> PathBuf {
+    let shader = std::fs::read_to_string("glsl/shadow_tests/exact.frag").unwrap();
+    assert_eq!(shader.matches(from).count(), 1, "{from}");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(folder.join("shadow_tests")).unwrap();
+    std::fs::write(
+        folder.join("shadow_tests/exact.frag"),
+        shader.replace(from, to),
+    )
+    .unwrap();
+    folder
+}
+
+/// Of an open mesh what faces the light casts, too, and not onto itself.
+#[test]
+fn a_triangle_that_faces_the_light_does_not_shadow_itself() {
+    let size = [800, 600];
+    let scene = (shadowlab::hard::find("open-mesh").unwrap().scene)();
+    let rays = Rays::new(&scene, 0);
+    let truth = rays.truth(size);
+    let measure = Measure::new(&rays, &truth);
+    let exact = ["shadow_test=exact"];
+    let mut bench = Bench::with_scene("cs541", scene.clone(), size, &exact);
+    let found = measure.measure(&bench.visibility(), None).0;
+    assert_eq!(wrong(&found), [0, 0], "{found}");
+    // The control: nothing is in the plane of anything.
+    let folder = edited("exact-own-plane", "IN_PLANE = 1e-5", "IN_PLANE = -1e5");
+    let mut bench = Bench::with_scene_and_glsl("cs541", scene, &folder, size, &exact);
+    let [shadow, _] = wrong(&measure.measure(&bench.visibility(), None).0);
+    assert!(shadow > 0);
+}
+
+/// Smooth normals face the light on some triangles that do not, under a spot light and under the sun.
+#[test]
+fn what_faces_away_from_the_light_is_in_its_own_shadow() {
+    for lab in ["cs541", "csci3260"] {
+        let mut scene = default_scene(lab);
+        let light = scene.lights[0].clone();
+        let shines = light.direction.normalize();
+        let centre = light.position + 8.0 * shines;
+        scene.objects.truncate(1);
+        scene.objects[0].mesh = Arc::new(shapes::sphere(8));
+        // Turned, so that the light sees no triangle edge-on.
+        scene.objects[0].placement =
+            DMat4::from_translation(centre) * rotate(20.0, DVec3::new(1.0, 2.0, 3.0));
+        // Seen from the side, half of it is lit.
+        scene.camera.look = shines.any_orthonormal_vector();
+        scene.camera.rup = shines;
+        scene.camera.eye = centre - 4.0 * scene.camera.look;
+        let truth = Rays::new(&scene, 0).truth(SIZE);
+        let faces_away =
+            |i: &usize| truth.seen[*i].is_some() && truth.labels[*i] == Label::NotValid;
+        let away: Vec<usize> = (0..truth.labels.len()).filter(faces_away).collect();
+        assert!(away.len() > 1000, "{lab}: {} pixels", away.len());
+        let lit = |mut bench: Bench| {
+            let visibility = bench.visibility().into_raw();
+            away.iter().filter(|i| visibility[**i] != 0).count()
+        };
+        let exact = ["shadow_test=exact"];
+        let found = lit(Bench::with_scene(lab, scene.clone(), SIZE, &exact));
+        assert_eq!(found, 0, "{lab}");
+        // The control: nothing faces away.
+        let folder = edited(&format!("exact-away-{lab}"), "> 1e-3;", "> 2;");
+        let control = Bench::with_scene_and_glsl(lab, scene, &folder, SIZE, &exact);
+        assert!(lit(control) > 100, "{lab}");
     }
 }
 

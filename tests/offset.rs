@@ -175,8 +175,6 @@ fn lines(text: &str) -> Vec<String> {
 fn the_shaders_differ_from_those_of_the_exact_test_in_the_test_alone() {
     let read = |path: &str| std::fs::read_to_string(format!("glsl/{path}")).unwrap();
     let of_the_test = [
-        "first_triangle",
-        "firstTriangle",
         "LightBuffer",
         "FittedMap",
         "sampler2D depths;",

@@ -247,6 +247,8 @@ fn at_rest_the_program_sleeps() {
     assert!(resting <= most, "{resting:?} with rotation=off");
     let paused = used("--size 200x200", "space");
     assert!(paused <= most, "{paused:?} paused");
+    let looking = used("--set rotation=off --size 200x200", "F2");
+    assert!(looking <= most, "{looking:?} with the panel open");
     // The control: what moves is drawn.
     let moving = used("--size 200x200", "w");
     assert!(moving > 2 * most, "{moving:?} moving");

@@ -37,7 +37,7 @@ fn act(desktop: &Desktop, viewer: &Viewer, input: Input) {
             let button = if steps > 0 { "4" } else { "5" };
             mouse(&["click", "--repeat", &steps.abs().to_string(), button]);
         }
-        Input::Wait(_) => unreachable!("no lab lists it"),
+        Input::Set(_) | Input::Wait(_) => unreachable!("no lab lists it"),
     }
 }
 

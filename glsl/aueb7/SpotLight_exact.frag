@@ -17,8 +17,6 @@ uniform vec3 uniform_light_direction_ecs;
 
 // What lies outside of the beam: 0 dark, 1 lit.
 uniform float uniform_outside;
-// The object's first triangle, as the light buffer counts.
-uniform int uniform_first_triangle;
 
 // Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
 struct LightBuffer {
@@ -28,12 +26,14 @@ struct LightBuffer {
     int side;
 };
 uniform LightBuffer light_buffer;
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs);
 
 out vec4 out_color;
 
 void main(void)
 {
+    // Before anything is discarded: a normal is taken from the neighbours, too.
+    vec3 normal_lcs = cross(dFdx(position_lcs), dFdy(position_lcs));
     vec4 texture_color = texture(uniform_sampler_diffuse, texcoord);
     if (texture_color.a < 1.0)
         discard;
@@ -53,8 +53,7 @@ void main(void)
     float shadow_factor = uniform_outside;
     if (inside_beam) {
         shadow_factor = 1.0;
-        int triangle = uniform_first_triangle + gl_PrimitiveID;
-        if (n_dot_l > 0.0 && is_in_shadow_of_source(light_buffer, position_lcs, false, triangle))
+        if (n_dot_l > 0.0 && is_in_shadow_of_source(light_buffer, position_lcs, false, normal_lcs))
             shadow_factor = 0.0;
     }
 

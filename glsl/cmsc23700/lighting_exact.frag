@@ -8,9 +8,6 @@ in vec3 C_in;
 // In each light's coordinate system.
 in vec3 directionalCoord;
 in vec3 spotCoord;
-// Which triangle it is, as the light buffers count.
-flat in int instanceStart;
-uniform int instanceTriangles;
 
 // The global ambient light level.
 uniform vec3 A;
@@ -43,8 +40,8 @@ struct LightBuffer {
 };
 uniform LightBuffer directionalBuffer;
 uniform LightBuffer spotBuffer;
-bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle);
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, vec3 normal_lcs);
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs);
 
 // S_l: 0.5 when the pixel is in shadow and 1.0 otherwise.
 float S(bool in_shadow)
@@ -56,13 +53,14 @@ void main()
 {
     vec3 N = normalize(eyeNormal);
     vec3 sum = vec3(0.0);
-    // Drivers differ in whether gl_PrimitiveID begins anew with each instance.
-    int triangle = instanceStart + gl_PrimitiveID % instanceTriangles;
+    // The triangle's normal, for each light.
+    vec3 directionalNormal = cross(dFdx(directionalCoord), dFdy(directionalCoord));
+    vec3 spotNormal = cross(dFdx(spotCoord), dFdy(spotCoord));
 
     if (directionalEnabled) {
         vec3 A_l = directionalAmbient;
         vec3 D_l = directionalDiffuse * max(dot(N, directionalDirection), 0.0);
-        float S_l = S(is_in_shadow_of_rays(directionalBuffer, directionalCoord, triangle));
+        float S_l = S(is_in_shadow_of_rays(directionalBuffer, directionalCoord, directionalNormal));
         sum += S_l * (A_l + D_l);
     }
 
@@ -76,7 +74,7 @@ void main()
             float attenuation = pow(spotDot, spotExponent) / dot(spotAttenuation, vec3(1.0, d, d * d));
             vec3 A_l = attenuation * spotAmbient;
             vec3 D_l = attenuation * spotDiffuse * max(dot(N, L), 0.0);
-            float S_l = S(is_in_shadow_of_source(spotBuffer, spotCoord, false, triangle));
+            float S_l = S(is_in_shadow_of_source(spotBuffer, spotCoord, false, spotNormal));
             sum += S_l * (A_l + D_l);
         }
     }

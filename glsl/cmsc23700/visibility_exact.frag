@@ -6,9 +6,6 @@ in vec3 eyePosition;
 // In each light's coordinate system.
 in vec3 directionalCoord;
 in vec3 spotCoord;
-// Which triangle it is, as the light buffers count.
-flat in int instanceStart;
-uniform int instanceTriangles;
 
 uniform vec3 spotPosition;
 uniform vec3 spotDirection;
@@ -28,8 +25,8 @@ struct LightBuffer {
 };
 uniform LightBuffer directionalBuffer;
 uniform LightBuffer spotBuffer;
-bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle);
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, vec3 normal_lcs);
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs);
 
 float S(bool in_shadow)
 {
@@ -38,17 +35,18 @@ float S(bool in_shadow)
 
 void main()
 {
-    // Drivers differ in whether gl_PrimitiveID begins anew with each instance.
-    int triangle = instanceStart + gl_PrimitiveID % instanceTriangles;
+    // The triangle's normal, for each light.
+    vec3 directionalNormal = cross(dFdx(directionalCoord), dFdy(directionalCoord));
+    vec3 spotNormal = cross(dFdx(spotCoord), dFdy(spotCoord));
     float S_l = 1.0;
     if (light == 1) {
-        S_l = S(is_in_shadow_of_rays(directionalBuffer, directionalCoord, triangle));
+        S_l = S(is_in_shadow_of_rays(directionalBuffer, directionalCoord, directionalNormal));
     } else {
         vec3 L = normalize(spotPosition - eyePosition);
         float spotDot = dot(-L, spotDirection);
         // Outside the cone nothing is asked.
         if (spotDot >= spotCosCutoff)
-            S_l = S(is_in_shadow_of_source(spotBuffer, spotCoord, false, triangle));
+            S_l = S(is_in_shadow_of_source(spotBuffer, spotCoord, false, spotNormal));
     }
     color = vec4(vec3((S_l - 0.5) / 0.5), 1.0);
 }

@@ -14,9 +14,6 @@ uniform vec3 specular_color;
 uniform float shininess;
 uniform sampler2D usampler;
 
-// The object's first triangle, as the light buffer counts.
-uniform int first_triangle;
-
 // The shape of the light's beam. A point light has none: it lights what is outside of the shadow map, too.
 const int NO_BEAM = 0, RECTANGULAR = 1, CIRCULAR = 2;
 uniform int beam;
@@ -31,7 +28,7 @@ struct LightBuffer {
     int side;
 };
 uniform LightBuffer light_buffer;
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs);
 
 void main(void)
 {
@@ -42,10 +39,10 @@ void main(void)
         inside_beam = inside_beam && length(position_lcs.xy) <= -position_lcs.z;
 
     // The shadow test: is there a triangle between the point and the light? What is dark anyway is not asked about.
-    int triangle = first_triangle + gl_PrimitiveID;
+    vec3 normal_lcs = cross(dFdx(position_lcs), dFdy(position_lcs));
     bool in_shadow = false;
     if ((inside_beam || beam == NO_BEAM) && dot(normal_vector, light_vector) > 0)
-        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, triangle);
+        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, normal_lcs);
 
     // Local illumination: the light reaches what is in its beam and not in shadow.
     bool illuminated = !in_shadow && (inside_beam || beam == NO_BEAM);

@@ -4,8 +4,6 @@
 
 in vec3 position_lcs;
 
-// The object's first triangle, as the light buffer counts.
-uniform int first_triangle;
 
 const int NO_BEAM = 0, RECTANGULAR = 1, CIRCULAR = 2;
 uniform int beam;
@@ -20,7 +18,7 @@ struct LightBuffer {
     int side;
 };
 uniform LightBuffer light_buffer;
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle);
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs);
 
 void main(void)
 {
@@ -29,10 +27,10 @@ void main(void)
     if (beam == CIRCULAR)
         inside_beam = inside_beam && length(position_lcs.xy) <= -position_lcs.z;
 
-    int triangle = first_triangle + gl_PrimitiveID;
+    vec3 normal_lcs = cross(dFdx(position_lcs), dFdy(position_lcs));
     bool in_shadow = false;
     if (inside_beam || beam == NO_BEAM)
-        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, triangle);
+        in_shadow = is_in_shadow_of_source(light_buffer, position_lcs, beam == NO_BEAM, normal_lcs);
 
     frag_color = vec4(vec3(in_shadow ? 0 : 1), 1);
 }

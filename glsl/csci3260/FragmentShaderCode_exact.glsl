@@ -9,8 +9,6 @@ in vec2 UV;
 in vec4 ShadowCoord;
 
 uniform sampler2D objTexture;
-// The model's first triangle, as the light buffer counts.
-uniform int firstTriangle;
 // Towards the light, of length 1.
 uniform vec3 lightInvDir;
 
@@ -33,7 +31,7 @@ struct LightBuffer {
     int side;
 };
 uniform LightBuffer light_buffer;
-bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle);
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, vec3 normal_lcs);
 
 void main()
 {
@@ -41,9 +39,10 @@ void main()
     vec3 l = lightInvDir;
 
     // Is there a triangle between the fragment and the light? What is dark anyway is not asked about.
+    vec3 normal_lcs = cross(dFdx(ShadowCoord.xyz), dFdy(ShadowCoord.xyz));
     float visibility = 1.0;
     if (dot(n, l) > 0) {
-        if (is_in_shadow_of_rays(light_buffer, ShadowCoord.xyz, firstTriangle + gl_PrimitiveID))
+        if (is_in_shadow_of_rays(light_buffer, ShadowCoord.xyz, normal_lcs))
             visibility = 0.5;
     }
     // Can set different visibilities to diffuse and specular light.

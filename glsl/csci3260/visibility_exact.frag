@@ -5,9 +5,6 @@
 // In the light's coordinate system: the light shines along -z.
 in vec4 ShadowCoord;
 
-// The model's first triangle, as the light buffer counts.
-uniform int firstTriangle;
-
 out vec4 color;
 
 // Which triangles each ray of the light can meet; it and its test are in shadow_tests/exact.frag.
@@ -18,12 +15,13 @@ struct LightBuffer {
     int side;
 };
 uniform LightBuffer light_buffer;
-bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle);
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, vec3 normal_lcs);
 
 void main()
 {
+    vec3 normal_lcs = cross(dFdx(ShadowCoord.xyz), dFdy(ShadowCoord.xyz));
     float visibility = 1.0;
-    if (is_in_shadow_of_rays(light_buffer, ShadowCoord.xyz, firstTriangle + gl_PrimitiveID))
+    if (is_in_shadow_of_rays(light_buffer, ShadowCoord.xyz, normal_lcs))
         visibility = 0.5;
 
     color = vec4(vec3((visibility - 0.5) / 0.5), 1);

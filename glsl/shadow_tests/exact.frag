@@ -21,9 +21,13 @@ const int DARK = 0x7fffffff;
 // In a list, beside where to go on: the caster faces the light.
 const int FACES_LIGHT = int(0x80000000);
 
-// `ray` leads from the light through the point; on a caster's plane its product with the plane is `reach`. Nearness is
-// 1/depth or, where rays are parallel, z.
-bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness, vec3 ray, float reach, int triangle)
+// A point lies in a plane that it is no farther from than this, as a share of the largest terms: some 160 roundings, since
+// drivers interpolate over a whole triangle. And two planes that differ by less than this, as a share, are one.
+const float IN_PLANE = 1e-5, ONE_PLANE = 0.1;
+
+// `ray` leads from the light through the point; on a caster's plane its product with the plane is `reach`. So it is on
+// `own_plane`, the point's own triangle's. Nearness is 1/depth or, where rays are parallel, z.
+bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness, vec3 ray, float reach, vec3 own_plane)
 {
     vec2 within = (place - light_buffer.rectangle.xy) * light_buffer.rectangle.zw;
     // Where there is no cell there is no caster.
@@ -35,9 +39,10 @@ bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness
     bool lit = outside || nearness > uintBitsToFloat(content.x);
     bool dark = !lit && nearness < uintBitsToFloat(content.y);
 
-    // A point is not behind its own triangle; but if that faces away, it is in its own shadow, however its normals are
-    // smoothed.
-    int own = 3*triangle;
+    // A point is not behind its own triangle, which the list may have if that faces the light: it is in its plane.
+    float own_reach = reach + IN_PLANE * (1 + dot(abs(own_plane), abs(ray)));
+    float apart = ONE_PLANE * ONE_PLANE * dot(own_plane, own_plane);
+
     // One plane in each round, and not one caster: pixels that are drawn together wait for each other, and most of them
     // need no round at all. For the same reason a round is short, and fetches once. Where a ray passes an edge on the
     // wrong side, the list goes on; lists are behind all edges.
@@ -47,16 +52,27 @@ bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness
     int next = first;
     while (at < end) {
         ivec4 node = texelFetch(light_buffer.nodes, at);
-        float product = dot(intBitsToFloat(node.xyz), ray);
-        bool passed = product >= (at < first ? 0 : reach) && node.w != (own | FACES_LIGHT);
+        vec3 plane = intBitsToFloat(node.xyz);
+        float product = dot(plane, ray);
+        vec3 difference = plane - own_plane;
+        bool own = node.w < 0 && product < own_reach && dot(difference, difference) < apart;
         next = max(next, at + 1);
-        at = node.w == own ? DARK : passed ? node.w & ~FACES_LIGHT : next;
+        at = product >= (at < first ? 0 : reach) && !own ? node.w & ~FACES_LIGHT : next;
     }
     return dark || at == DARK;
 }
 
+// Whether the point's own triangle turns its back to the light: then it is in its own shadow, however its normals are
+// smoothed. Not where that is hard to say.
+bool faces_away(vec3 normal_lcs, vec3 ray)
+{
+    float cosine = dot(normal_lcs, ray) * inversesqrt(dot(normal_lcs, normal_lcs) * dot(ray, ray));
+    return (gl_FrontFacing ? cosine : -cosine) > 1e-3;
+}
+
 // A light that shines from the origin: in a beam along -z, or in all directions, with six faces of cells around it.
-bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, int triangle)
+// `normal_lcs` is that of the triangle, of any length, on the side that is seen.
+bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool all_directions, vec3 normal_lcs)
 {
     vec3 size = abs(position_lcs);
     int axis = 2;
@@ -65,12 +81,16 @@ bool is_in_shadow_of_source(LightBuffer light_buffer, vec3 position_lcs, bool al
     vec3 turned = axis == 0 ? position_lcs.yzx : axis == 1 ? position_lcs.zxy : position_lcs.xyz;
     int face = all_directions ? 2*axis + (turned.z < 0 ? 1 : 0) : 0;
     float nearness = 1 / abs(turned.z);
-    return is_in_shadow(light_buffer, face, turned.xy * nearness, nearness, position_lcs, 1, triangle);
+    vec3 own_plane = normal_lcs / dot(normal_lcs, position_lcs);
+    return faces_away(normal_lcs, position_lcs)
+        || is_in_shadow(light_buffer, face, turned.xy * nearness, nearness, position_lcs, 1, own_plane);
 }
 
 // Parallel rays, along -z.
-bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, int triangle)
+bool is_in_shadow_of_rays(LightBuffer light_buffer, vec3 position_lcs, vec3 normal_lcs)
 {
     vec3 ray = vec3(position_lcs.xy, -1);
-    return is_in_shadow(light_buffer, 0, position_lcs.xy, position_lcs.z, ray, position_lcs.z, triangle);
+    vec3 own_plane = vec3(normal_lcs.xy, dot(normal_lcs, position_lcs)) / -normal_lcs.z;
+    return faces_away(normal_lcs, vec3(0, 0, -1))
+        || is_in_shadow(light_buffer, 0, position_lcs.xy, position_lcs.z, ray, position_lcs.z, own_plane);
 }

@@ -34,14 +34,49 @@ pub fn command(words: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<Com
     Ok(command)
 }
 
+/// How long a process may take.
+#[derive(Clone, Copy)]
+pub enum Limit {
+    /// By the clock on the wall: a shader may keep a GPU busy, and no core.
+    Wall(Duration),
+    /// Of the cores' time: other work on the machine does not count. By the clock it may take [`PATIENT`] times as long.
+    Cores(Duration),
+}
+
+const PATIENT: u32 = 10;
+/// In which Linux counts a process's time, in seconds.
+const TICK: f64 = 0.01;
+
+impl Limit {
+    fn is_over(self, child: &Child, started: Instant) -> bool {
+        match self {
+            Self::Wall(limit) => started.elapsed() > limit,
+            Self::Cores(limit) => {
+                started.elapsed() > PATIENT * limit
+                    || cores_time(child).is_some_and(|seconds| seconds > limit.as_secs_f64())
+            }
+        }
+    }
+}
+
+/// User's and system's time of a process, in seconds: the 14th and 15th word of its line, of which the second is its name
+/// in parentheses.
+fn cores_time(child: &Child) -> Option<f64> {
+    let line = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+    let (_, behind_name) = line.rsplit_once(')')?;
+    let words = behind_name.split_whitespace().skip(11).take(2);
+    let ticks: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    Some(TICK * ticks?.iter().sum::<f64>())
+}
+
 /// None: it was still running at its limit, and was killed.
-pub fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus>> {
+pub fn wait(child: &mut Child, limit: Limit) -> std::io::Result<Option<ExitStatus>> {
     let started = Instant::now();
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
         }
-        if started.elapsed() > limit {
+        if limit.is_over(child, started) {
             child.kill()?;
             child.wait()?;
             return Ok(None);
@@ -105,7 +140,7 @@ fn run(
     // Its end tells the process that this one is gone.
     let _alive = child.stdin.take();
     let said = child.stderr.take().map(read_all);
-    let status = wait(&mut child, Duration::from_secs(limit)).map_err(failed)?;
+    let status = wait(&mut child, Limit::Wall(Duration::from_secs(limit))).map_err(failed)?;
     let said = said.map(|said| said.join().unwrap_or_default());
     let Some(status) = status else {
         return Err(Error::input(

@@ -189,7 +189,7 @@ impl ViewOptions {
     fn run(self) -> Result<()> {
         let state = self.state;
         let handout = labs::find(&state.lab)?;
-        let _mistake = state.make_mistake()?;
+        let mistake = state.mistake()?;
         let inputs = parse_keys(&state.changes.keys)?;
         let scene = state.students_scene()?.map_or_else(handout.scene, Ok)?;
         if let Some(folder) = &state.changes.glsl {
@@ -202,8 +202,9 @@ impl ViewOptions {
             inputs,
             time: state.changes.time,
             glsl: state.changes.glsl.clone(),
-            options: state.options(),
-            prepare: Box::new(move |lab| state.bring(handout, lab)),
+            options: state.options_but_mistake(),
+            mistake,
+            prepare: Box::new(move |lab, inputs, time| state.bring_by(handout, lab, inputs, time)),
             vsync: self.vsync == Switch::On,
             api: match self.api {
                 ApiOption::Auto => Api::Auto,

@@ -10,7 +10,7 @@ use shadowlab::gl::edits::{self, Edited, Edits};
 use shadowlab::hard::{self, Case};
 use shadowlab::headless::{Choice, Headless};
 use shadowlab::labs::{self, Handout, Input, Lab, Show, parse_keys};
-use shadowlab::mistakes;
+use shadowlab::mistakes::{self, Mistake};
 use shadowlab::own_shaders;
 use shadowlab::scene::{self, Scene};
 use shadowlab::{Error, Result};
@@ -63,7 +63,7 @@ pub struct Changes {
     /// Use the shaders of this folder in place of those with the same names
     #[arg(long, value_name = "DIR")]
     pub glsl: Option<PathBuf>,
-    /// Seconds that drawing with the shaders of --glsl, or one picture of compare --batch, may take
+    /// Seconds that drawing with the shaders of --glsl may take, or one picture of compare --batch (of the cores' time)
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     pub limit: u64,
     /// Make one of the classic mistakes; `shadowlab labs` lists those that a lab can make
@@ -221,21 +221,37 @@ impl State {
     }
 
     /// Makes the mistake that is asked for, until what is returned is dropped.
-    pub fn make_mistake(&self) -> Result<Option<Edited>> {
+    fn make_mistake(&self) -> Result<Option<Edited>> {
+        let mistake = self.mistake()?;
+        let made = mistake.and_then(|mistake| mistake.made(&self.lab));
+        Ok(made.map(|made| edits::set(made.edits)))
+    }
+
+    /// The mistake that is asked for.
+    pub fn mistake(&self) -> Result<Option<&'static Mistake>> {
         let Some(name) = &self.changes.mistake else {
             return Ok(None);
         };
-        let (_, made) = mistakes::find(name, &self.lab)?;
+        let (mistake, _) = mistakes::find(name, &self.lab)?;
         if let Some(test) = self.changes.other_test() {
             return Err(Error::usage(format!(
                 "--mistake {name}: it is one of the handout's test, expected shadow_test=handout, found {test}"
             )));
         }
-        Ok(Some(edits::set(made.edits)))
+        Ok(Some(mistake))
     }
 
     /// The options but for size, keys and time, as another command line would repeat them.
     pub fn options(&self) -> Vec<String> {
+        let mut options = self.options_but_mistake();
+        if let Some(name) = &self.changes.mistake {
+            options.extend(["--mistake".to_owned(), name.clone()]);
+        }
+        options
+    }
+
+    /// The same without --mistake, which the viewer's panel can change.
+    pub fn options_but_mistake(&self) -> Vec<String> {
         let mut options = Vec::new();
         if let Some(path) = &self.changes.scene {
             options.extend(["--scene".to_owned(), path.display().to_string()]);
@@ -248,9 +264,6 @@ impl State {
         }
         if let Some(folder) = &self.changes.glsl {
             options.extend(["--glsl".to_owned(), folder.display().to_string()]);
-        }
-        if let Some(name) = &self.changes.mistake {
-            options.extend(["--mistake".to_owned(), name.clone()]);
         }
         options
     }
@@ -270,15 +283,27 @@ impl State {
 
     /// Brings a lab that has just started to this state.
     pub fn bring(&self, handout: &Handout, lab: &mut dyn Lab) -> Result<()> {
+        let inputs = parse_keys(&self.changes.keys)?;
+        self.bring_by(handout, lab, &inputs, self.changes.time)
+    }
+
+    /// The same with other inputs in place of --keys, and another time behind them in place of --time.
+    pub fn bring_by(
+        &self,
+        handout: &Handout,
+        lab: &mut dyn Lab,
+        inputs: &[Input],
+        time: f64,
+    ) -> Result<()> {
         for assignment in &self.changes.set {
             lab.settings().set(assignment)?;
         }
-        let inputs = parse_keys(&self.changes.keys)?;
+        let after_inputs = time;
         let waits = inputs.iter().map(|input| match input {
             Input::Wait(seconds) => *seconds,
             _ => 0.0,
         });
-        let time = waits.sum::<f64>() + self.changes.time;
+        let time = waits.sum::<f64>() + after_inputs;
         let most = lab.most_time().min(MOST_TIME);
         if time > most {
             return Err(Error::usage(format!(
@@ -287,7 +312,9 @@ impl State {
             )));
         }
         for input in inputs {
-            if !lab.input(input) {
+            if let Input::Set(assignment) = input {
+                lab.settings().set(assignment)?;
+            } else if !lab.input(input.clone()) {
                 return Err(Error::usage(format!(
                     "--keys: {} has no key {input}, expected one of {}",
                     handout.name,
@@ -300,7 +327,7 @@ impl State {
                 )));
             }
         }
-        lab.advance(self.changes.time);
+        lab.advance(after_inputs);
         Ok(())
     }
 

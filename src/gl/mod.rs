@@ -24,8 +24,8 @@ pub use check::{check_errors, check_framebuffer};
 pub use mesh::Mesh;
 pub use overlay::{Area, Overlay};
 pub use read::{
-    read_depth, read_depths, read_float_in_bytes, read_float_of_one_vertex, read_grey, read_rgb,
-    read_stencil,
+    read_depth, read_depth_texels, read_depths, read_float_in_bytes, read_float_of_one_vertex,
+    read_grey, read_rgb, read_stencil,
 };
 pub use shader::{Made, MadeOf, Program, Shaders, programs_made, stands_for_both};
 pub use texture::{

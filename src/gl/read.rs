@@ -114,6 +114,37 @@ pub fn read_depths(
     }
 }
 
+/// Some texels of a depth texture, from `first` on, row by row from the bottom; all within it.
+pub fn read_depth_texels(
+    gl: &glow::Context,
+    texture: glow::Texture,
+    [x, y]: [u32; 2],
+    [width, height]: [u32; 2],
+) -> Result<Vec<f32>> {
+    let mut bytes = vec![0; 4 * width as usize * height as usize];
+    unsafe {
+        let before = gl.get_parameter_framebuffer(glow::READ_FRAMEBUFFER_BINDING);
+        let framebuffer = gl.create_framebuffer().map_err(Error::gl)?;
+        gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(framebuffer));
+        gl.framebuffer_texture_2d(
+            glow::READ_FRAMEBUFFER,
+            glow::DEPTH_ATTACHMENT,
+            glow::TEXTURE_2D,
+            Some(texture),
+            0,
+        );
+        gl.read_buffer(glow::NONE);
+        let area = [x, y, width, height];
+        read_pixels(gl, area, glow::DEPTH_COMPONENT, glow::FLOAT, &mut bytes);
+        gl.bind_framebuffer(glow::READ_FRAMEBUFFER, before);
+        gl.delete_framebuffer(framebuffer);
+    }
+    let texels = bytes.chunks_exact(4);
+    Ok(texels
+        .map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
+        .collect())
+}
+
 fn read_pixels(gl: &glow::Context, area: [u32; 4], format: u32, kind: u32, bytes: &mut [u8]) {
     let [x, y, width, height] = area.map(|n| n as i32);
     unsafe {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::exact::Range;
 use crate::{Error, Result};
@@ -44,6 +44,17 @@ pub struct Explanation {
     pub tests: Vec<(&'static str, bool, bool)>,
     /// None where no surface is.
     pub in_shadow: Option<bool>,
+    /// None where no depth map is looked at.
+    pub look_up: Option<LookUp>,
+}
+
+/// Where a test looks into its depth map, and what it compares, as the GPU has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookUp {
+    /// 0…1 from the map's left and bottom edge; of PCF the sample in the middle.
+    pub uv: DVec2,
+    /// The place's own depth with the bias in it: a texel that stores less puts it in shadow.
+    pub depth: f64,
 }
 
 /// One value of the test: as the GPU has it, in f64, and how far apart rounding and rasterisation may drive them.
@@ -89,6 +100,7 @@ impl Explanation {
             steps: Vec::new(),
             tests: Vec::new(),
             in_shadow: None,
+            look_up: None,
         }
     }
 }

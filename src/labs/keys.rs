@@ -5,10 +5,12 @@ use std::fmt;
 use crate::{Error, Result, error};
 
 /// What a person does to a lab.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Key(Key),
     Pointer(Pointer),
+    /// Another value for a setting, in the viewer's panel: `name=value`, as `--set` writes it.
+    Set(String),
     /// Nothing, for so many seconds.
     Wait(f64),
 }
@@ -58,12 +60,13 @@ const NAMED: [(&str, Key); 9] = [
 /// The longest wait, in seconds: a year.
 const LONGEST_WAIT: f64 = 31_557_600.0;
 
-/// The movements of the mouse, and the wait, that `--keys` writes as `<Name:numbers>`, and what each name's numbers are.
-const MOVEMENTS: [(&str, &str); 4] = [
+/// What `--keys` writes as `<Name:…>` beside the keys, and what stands behind each name.
+const MOVEMENTS: [(&str, &str); 5] = [
     ("Drag", "<Drag:12,-5>: right and down, in pixels"),
     ("RightDrag", "<RightDrag:12,-5>: right and down, in pixels"),
     ("Wheel", "<Wheel:1>: steps away from the person"),
     ("Wait", "<Wait:0.5>: seconds that pass"),
+    ("Set", "<Set:name=value>: another value for a setting"),
 ];
 
 impl fmt::Display for Input {
@@ -75,6 +78,7 @@ impl fmt::Display for Input {
                 Button::Right => write!(f, "<RightDrag:{dx},{dy}>"),
             },
             Self::Pointer(Pointer::Wheel(steps)) => write!(f, "<Wheel:{steps}>"),
+            Self::Set(assignment) => write!(f, "<Set:{assignment}>"),
             Self::Wait(seconds) => write!(f, "<Wait:{seconds}>"),
         }
     }
@@ -128,6 +132,9 @@ fn parse_named(name: &str) -> Result<Key> {
 }
 
 fn parse_movement(name: &str, numbers: &str) -> Result<Input> {
+    if name == "Set" && numbers.contains('=') {
+        return Ok(Input::Set(numbers.to_owned()));
+    }
     // A NaN is in no range.
     let seconds = numbers.parse().ok();
     if let Some(seconds) = seconds.filter(|s| (0.0..=LONGEST_WAIT).contains(s))
@@ -163,9 +170,9 @@ mod tests {
 
     #[test]
     fn what_is_parsed_is_written_the_same() {
-        let text = "wwa<Left><PageUp>W<lt>é<F1><Drag:12,-5><RightDrag:0,7><Wheel:-2><Wait:0.25>";
+        let text = "wwa<Left><PageUp>W<lt>é<F1><Drag:12,-5><RightDrag:0,7><Wheel:-2><Wait:0.25><Set:filter=nearest>";
         let keys = parse_keys(text).unwrap();
-        assert_eq!(keys.len(), 13);
+        assert_eq!(keys.len(), 14);
         let written: String = keys.iter().map(Input::to_string).collect();
         assert_eq!(written, text);
     }
@@ -182,6 +189,7 @@ mod tests {
             ("<Wait:-1>", "seconds"),
             ("<Wait:NaN>", "seconds"),
             ("<Wait:1,2>", "seconds"),
+            ("<Set:filter>", "name=value"),
             ("<Swipe:1,2>", "<Wheel:1>"),
         ] {
             let error = parse_keys(text).unwrap_err().to_string();

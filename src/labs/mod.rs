@@ -16,7 +16,7 @@ mod settings;
 
 use std::path::Path;
 
-pub use explanation::{Explanation, Probe, Step};
+pub use explanation::{Explanation, LookUp, Probe, Step};
 pub use keys::{Button, Input, Key, Pointer, parse_keys};
 pub use settings::{Kind, Setting, Settings};
 
@@ -91,10 +91,12 @@ pub trait Lab {
     /// Whether the lab has a use for what the mouse did.
     fn pointer(&mut self, pointer: Pointer) -> bool;
 
+    /// Whether the lab has a use for it.
     fn input(&mut self, input: Input) -> bool {
         match input {
             Input::Key(key) => self.key(key),
             Input::Pointer(pointer) => self.pointer(pointer),
+            Input::Set(assignment) => self.settings().set(&assignment).is_ok(),
             Input::Wait(seconds) => {
                 self.advance(seconds);
                 true

@@ -34,10 +34,12 @@ pub fn decode(path: &Path, bytes: &[u8], room: u64) -> Result<RgbaImage> {
             "found {width}×{height} pixels, expected at most {MOST_SIDE}×{MOST_SIDE}"
         )));
     }
-    if 4 * u64::from(width) * u64::from(height) > room {
+    let needed = 4 * u64::from(width) * u64::from(height);
+    if needed > room {
         return Err(wrong(format!(
-            "found {width}×{height} pixels more, expected at most {} MiB of pictures in a scene",
-            MOST_BYTES >> 20
+            "found {width}×{height} pixels, which take {} MiB, expected at most {} MiB here",
+            needed >> 20,
+            room >> 20
         )));
     }
     let mut reader = reader();

@@ -11,9 +11,14 @@ use super::View;
 use super::viewer::{Next, Viewer};
 use crate::{Error, Result};
 
-/// A shader was saved.
+/// What another thread has for the viewer.
 #[derive(Debug)]
-struct Saved;
+pub enum Wake {
+    /// A shader was saved.
+    Saved,
+    /// The rays of the panel's question have come back.
+    Truth,
+}
 
 pub fn run(view: View) -> Result<()> {
     let no_display = |error: String| {
@@ -24,7 +29,7 @@ pub fn run(view: View) -> Result<()> {
     };
     let event_loop = connect().map_err(no_display)?;
     let mut app = App {
-        saved: event_loop.create_proxy(),
+        wake: event_loop.create_proxy(),
         view: Some(view),
         open: None,
         failed: None,
@@ -37,7 +42,7 @@ pub fn run(view: View) -> Result<()> {
 }
 
 /// The connection to the desktop, or why there is none.
-fn connect() -> std::result::Result<EventLoop<Saved>, String> {
+fn connect() -> std::result::Result<EventLoop<Wake>, String> {
     // winit panics where a library is missing: its message is kept, its backtrace is for nobody.
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
@@ -60,19 +65,16 @@ fn connect() -> std::result::Result<EventLoop<Saved>, String> {
 
 /// From start to end: `view`, until the desktop lets a window open, then `open`.
 struct App {
-    saved: EventLoopProxy<Saved>,
+    wake: EventLoopProxy<Wake>,
     view: Option<View>,
     open: Option<Viewer>,
     failed: Option<Error>,
 }
 
-impl ApplicationHandler<Saved> for App {
+impl ApplicationHandler<Wake> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if let Some(view) = self.view.take() {
-            let proxy = self.saved.clone();
-            // The window may have closed since: then nobody needs to know.
-            let saved = move || drop(proxy.send_event(Saved));
-            match Viewer::open(event_loop, view, saved) {
+            match Viewer::open(event_loop, view, self.wake.clone()) {
                 Ok(viewer) => self.open = Some(viewer),
                 Err(error) => self.fail(event_loop, error),
             }
@@ -90,9 +92,9 @@ impl ApplicationHandler<Saved> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, Saved: Saved) {
+    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
         if let Some(viewer) = &mut self.open {
-            viewer.reload_soon();
+            viewer.wake(wake);
         }
     }
 

@@ -4,16 +4,19 @@
 //! fields), and the context is current on the calling thread for as long as the canvas lives.
 #![allow(unsafe_code)]
 
+use std::ffi::CStr;
 use std::num::NonZeroU32;
+use std::sync::Arc;
 use std::time::Duration;
 
 use glow::HasContext;
 use glutin::config::{ColorBufferType, Config, ConfigTemplateBuilder, GlConfig};
 use glutin::context::{
-    ContextApi, ContextAttributesBuilder, GlProfile, PossiblyCurrentContext, Version,
+    ContextApi, ContextAttributesBuilder, GlProfile, NotCurrentContext, PossiblyCurrentContext,
+    Version,
 };
-use glutin::display::{Display, DisplayApiPreference, GlDisplay};
-use glutin::prelude::NotCurrentGlContext;
+use glutin::display::{Display, DisplayApiPreference, GetGlDisplay, GlDisplay};
+use glutin::prelude::{NotCurrentGlContext, PossiblyCurrentGlContext};
 use glutin::surface::{GlSurface, Surface, SurfaceAttributesBuilder, SwapInterval, WindowSurface};
 use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
@@ -36,7 +39,16 @@ pub struct Canvas {
     pub api: String,
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
+    config: Config,
+    vsync: bool,
     pub window: Window,
+}
+
+/// A context that draws into the same window and has a state of its own. It is the panel's, whose painter has a glow of
+/// its own, too.
+pub struct Beside {
+    pub gl: Arc<egui_glow::glow::Context>,
+    context: PossiblyCurrentContext,
 }
 
 impl Canvas {
@@ -61,35 +73,75 @@ impl Canvas {
             at_least_one(width),
             at_least_one(height),
         );
-        let context = ContextAttributesBuilder::new()
-            .with_profile(GlProfile::Core)
-            .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
-            .build(Some(handle));
         unsafe {
             let surface = display
                 .create_window_surface(&config, &surface)
                 .map_err(refused("a surface for the window"))?;
-            let context = display
-                .create_context(&config, &context)
-                .map_err(refused("an OpenGL 3.3 core context"))?
+            let context = new_context(&config, &window)?
                 .make_current(&surface)
                 .map_err(refused("making the context current"))?;
-            let interval = match view.vsync {
-                true => SwapInterval::Wait(NonZeroU32::MIN),
-                false => SwapInterval::DontWait,
-            };
-            // A renderer without a screen of its own may refuse either: the viewer keeps time by the clock too.
-            let _ = surface.set_swap_interval(&context, interval);
             let gl = trace::edited(|name| display.get_proc_address(name));
-            Ok(Self {
+            let canvas = Self {
                 renderer: gl.get_parameter_string(glow::RENDERER),
                 api: display.version_string(),
                 gl,
                 surface,
                 context,
+                config,
+                vsync: view.vsync,
                 window,
-            })
+            };
+            canvas.wait_for_screen();
+            Ok(canvas)
         }
+    }
+
+    fn wait_for_screen(&self) {
+        let interval = match self.vsync {
+            true => SwapInterval::Wait(NonZeroU32::MIN),
+            false => SwapInterval::DontWait,
+        };
+        // A renderer without a screen of its own may refuse either: the viewer keeps time by the clock too.
+        let _ = self.surface.set_swap_interval(&self.context, interval);
+    }
+
+    /// Another context in place of the one that there is, with all that was made in it.
+    pub fn renew(&mut self) -> Result<()> {
+        self.context = new_context(&self.config, &self.window)?
+            .make_current(&self.surface)
+            .map_err(|error| refused("making the context current", error))?;
+        let display = self.config.display();
+        self.gl = trace::edited(|name| display.get_proc_address(name));
+        self.wait_for_screen();
+        Ok(())
+    }
+
+    /// Another context beside the one that there is.
+    pub fn beside(&self) -> Result<Beside> {
+        let context = new_context(&self.config, &self.window)?
+            .make_current(&self.surface)
+            .map_err(|error| refused("making the context current", error))?;
+        let display = self.config.display();
+        let load = |name: &CStr| display.get_proc_address(name);
+        let gl = unsafe { egui_glow::glow::Context::from_loader_function_cstr(load) };
+        self.make_current(&self.context)?;
+        Ok(Beside {
+            gl: Arc::new(gl),
+            context,
+        })
+    }
+
+    /// Draws with a context beside the usual one, into the same frame.
+    pub fn draw_beside(&self, beside: &Beside, draw: impl FnOnce()) -> Result<()> {
+        self.make_current(&beside.context)?;
+        draw();
+        self.make_current(&self.context)
+    }
+
+    fn make_current(&self, context: &PossiblyCurrentContext) -> Result<()> {
+        context
+            .make_current(&self.surface)
+            .map_err(|error| refused("making the context current", error))
     }
 
     /// The window's size in pixels.
@@ -121,6 +173,18 @@ impl Canvas {
         let rate = monitor.and_then(|monitor| monitor.refresh_rate_millihertz());
         Duration::from_secs_f64(1.0 / rate.map_or(USUAL_REFRESH, |rate| f64::from(rate) / 1000.0))
     }
+}
+
+fn new_context(config: &Config, window: &Window) -> Result<NotCurrentContext> {
+    let handle = window
+        .window_handle()
+        .map_err(|error| Error::gl(format!("the desktop refuses a window: {error}")))?;
+    let attributes = ContextAttributesBuilder::new()
+        .with_profile(GlProfile::Core)
+        .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
+        .build(Some(handle.as_raw()));
+    unsafe { config.display().create_context(config, &attributes) }
+        .map_err(|error| refused("an OpenGL 3.3 core context", error))
 }
 
 fn refused(what: &str, error: glutin::error::Error) -> Error {

@@ -12,11 +12,20 @@ pub enum Own {
     DepthMap,
     Pause,
     Screenshot,
+    Panel,
     End,
 }
 
-pub const OWN: [(&str, &str); 5] = [
+impl Own {
+    /// Whether the key is the window's even while the panel has the keyboard.
+    pub fn is_of_window(self) -> bool {
+        matches!(self, Self::Screenshot | Self::Panel | Self::End)
+    }
+}
+
+pub const OWN: [(&str, &str); 6] = [
     ("?", "show these keys, and hide them"),
+    ("<F2>", "open the panel: settings, mistakes, what is inside"),
     ("m", "show the depth map, and hide it"),
     ("<Space>", "let time stand still, and go on"),
     ("<F12>", "write a screenshot"),
@@ -28,6 +37,7 @@ pub fn own(pressed: &Pressed) -> Option<Own> {
         Pressed::Character(text) if text == "?" => Some(Own::Help),
         Pressed::Character(text) if text == "m" => Some(Own::DepthMap),
         Pressed::Named(NamedKey::Space) => Some(Own::Pause),
+        Pressed::Named(NamedKey::F2) => Some(Own::Panel),
         Pressed::Named(NamedKey::F12) => Some(Own::Screenshot),
         Pressed::Named(NamedKey::Escape) => Some(Own::End),
         _ => None,

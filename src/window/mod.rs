@@ -3,10 +3,14 @@
 //! | file | what it does |
 //! |---|---|
 //! | `app` | from the connection to the desktop to the exit |
-//! | `viewer` | what happens when: keys and mouse, frames and time |
+//! | `viewer` | what happens when: keys and mouse |
+//! | `frame` | frames and time |
+//! | `stage` | the lab, with everything that was done to it |
+//! | `mouse` | the mouse over the picture |
 //! | `canvas` | the window with its OpenGL 3.3 core context, by GLX or EGL |
 //! | `keys` | the desktop's keys and mouse as the labs know them, and the viewer's own keys |
 //! | `panels` | what stands over the picture: keys, messages, the depth map |
+//! | `panel` | what stands beside it on a key: settings, mistakes, what is inside |
 //! | `text` | letters into an image |
 //! | `shot` | F12: a file, and the command line that draws it again |
 //! | `trial` | a saved shader, tried in a process of its own |
@@ -17,11 +21,19 @@ mod app;
 #[cfg(target_os = "linux")]
 mod canvas;
 #[cfg(target_os = "linux")]
+mod frame;
+#[cfg(target_os = "linux")]
 mod keys;
+#[cfg(target_os = "linux")]
+mod mouse;
+#[cfg(target_os = "linux")]
+mod panel;
 #[cfg(target_os = "linux")]
 mod panels;
 #[cfg(target_os = "linux")]
 mod shot;
+#[cfg(target_os = "linux")]
+mod stage;
 #[cfg(target_os = "linux")]
 mod text;
 #[cfg(target_os = "linux")]
@@ -35,6 +47,7 @@ use std::path::PathBuf;
 
 use crate::Result;
 use crate::labs::{Handout, Input, Lab};
+use crate::mistakes::Mistake;
 use crate::scene::Scene;
 
 /// What to show, and how.
@@ -43,11 +56,12 @@ pub struct View {
     pub scene: Scene,
     /// In logical pixels: a HiDPI screen shows the window as large as any other, with more pixels.
     pub size: [u32; 2],
-    /// Brings the new lab to the state that the options name.
+    /// The one that the lab is started with.
+    pub mistake: Option<&'static Mistake>,
     pub prepare: Prepare,
-    /// What `prepare` does to the lab, as far as the viewer goes on with it.
+    /// What has been done to the lab when the window opens.
     pub inputs: Vec<Input>,
-    /// In seconds.
+    /// After them, in seconds.
     pub time: f64,
     /// The other options, for a command line that draws the same picture.
     pub options: Vec<String>,
@@ -59,7 +73,8 @@ pub struct View {
     pub frames: Option<u64>,
 }
 
-pub type Prepare = Box<dyn FnOnce(&mut dyn Lab) -> Result<()>>;
+/// Brings a lab that has just started to the state that the options, these inputs and so many seconds after them make.
+pub type Prepare = Box<dyn Fn(&mut dyn Lab, &[Input], f64) -> Result<()>>;
 
 /// How the window gets its context.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use image::RgbaImage;
 
 use super::keys;
+use super::stage::Stage;
 use super::text::{Ground, Letters, wrap};
 use crate::Result;
 use crate::gl::{Area, Overlay};
@@ -49,15 +50,8 @@ impl Panels {
     }
 
     /// Draws over the picture that the lab has just drawn.
-    pub fn draw(
-        &mut self,
-        gl: &glow::Context,
-        shown: &Shown,
-        handout: &Handout,
-        lab: &dyn Lab,
-        size: [u32; 2],
-        scale: f64,
-    ) {
+    pub fn draw(&mut self, gl: &glow::Context, shown: &Shown, stage: &Stage, scale: f64) {
+        let (handout, lab, size) = (stage.handout, stage.lab.as_ref(), stage.size());
         let letters = Letters::new(scale);
         let columns = letters.columns(size[0]);
         let mut blocks = Vec::new();

@@ -77,7 +77,7 @@ impl Bench {
 
     pub fn press(&mut self, keys: &str) {
         for input in parse_keys(keys).unwrap() {
-            assert!(self.lab.input(input), "no key {input}");
+            assert!(self.lab.input(input.clone()), "no key {input}");
         }
     }
 

@@ -120,8 +120,13 @@ impl<'a> Viewer<'a> {
     }
 
     pub fn open_lab(desktop: &'a Desktop, lab: &str, options: &str) -> Self {
-        let mut process = desktop
-            .command(env!("CARGO_BIN_EXE_shadowlab"))
+        let program = desktop.command(env!("CARGO_BIN_EXE_shadowlab"));
+        Self::open_by(desktop, program, lab, options)
+    }
+
+    /// The same by a command that may be another program's, with the viewer's as its arguments.
+    pub fn open_by(desktop: &'a Desktop, mut program: Command, lab: &str, options: &str) -> Self {
+        let mut process = program
             .args(["view", lab])
             .args(options.split_whitespace())
             .stdout(Stdio::piped())
@@ -170,6 +175,17 @@ impl<'a> Viewer<'a> {
             .chain(keys.split_whitespace())
             .collect();
         self.desktop.xdotool(&words);
+    }
+
+    /// Presses a key and waits until something is seen of that.
+    pub fn step(&self, key: &str, size: [u32; 2]) -> RgbImage {
+        let before = self.desktop.screen(size);
+        self.press(key);
+        let screen = self
+            .desktop
+            .wait_for_screen(size, |screen| *screen != before);
+        assert!(screen != before, "nothing is seen of {key}");
+        screen
     }
 
     /// An xdotool command that takes a window.

@@ -68,8 +68,16 @@ pub fn judge_loaded(
         true => TOLERANCE_OF_JPEG,
         false => TOLERANCE,
     };
-    let hold =
-        |given: &RgbImage, size| hold(command, handout, given, reference.as_ref(), size, tolerance);
+    let hold = |given: &RgbImage, window| {
+        hold(
+            command,
+            handout,
+            given,
+            reference.as_ref(),
+            window,
+            tolerance,
+        )
+    };
     let mut held = hold(&given, size)?;
     // A picture of another size is one of a smaller window, or one that was scaled.
     let window = command.window(handout)?;
@@ -88,10 +96,14 @@ pub fn judge_loaded(
         ));
         None
     } else {
-        let diagnose = |size| {
-            let lab = LabPictures::new(handout, &command.changes, size, &command.device);
-            let mine = fitted(&given, size);
-            Ok::<_, Error>(lab.suspects()?.diagnose(&mine, tolerance, command.strict))
+        let mine = fitted(&given, reduced(found));
+        let diagnose = |window| {
+            let lab = LabPictures::new(handout, &command.changes, window, &command.device);
+            let mut suspects = lab.suspects()?;
+            if window != reduced(found) {
+                suspects = suspects.resized(reduced(found));
+            }
+            Ok::<_, Error>(suspects.diagnose(&mine, tolerance, command.strict))
         };
         let diagnosis = diagnose(reduced(size))?;
         Some(match may_be_scaled {
@@ -144,26 +156,28 @@ pub fn judge_loaded(
     })
 }
 
-/// Holds the picture against the lab's, or against the reference, at one size.
+/// Holds the picture against the lab's in a window of that size, scaled as the picture was since; or against the
+/// reference, as whose size the picture is looked at.
 fn hold<'a>(
     command: &'a CompareCommand,
     handout: &'static Handout,
     given: &RgbImage,
     reference: Option<&RgbImage>,
-    size: [u32; 2],
+    window: [u32; 2],
     tolerance: u8,
 ) -> Result<Held<'a>> {
-    let lab = LabPictures::new(handout, &command.changes, size, &command.device);
-    let right = match reference {
-        Some(reference) => reference.clone(),
-        None => lab.right()?,
+    let lab = |size| LabPictures::new(handout, &command.changes, size, &command.device);
+    let found: [u32; 2] = given.dimensions().into();
+    let (size, right) = match reference {
+        Some(reference) => (window, reference.clone()),
+        None => (found, fitted(&lab(window).right()?, found)),
     };
     let mut forgiven = Vec::new();
-    let found: [u32; 2] = given.dimensions().into();
-    if found != size {
+    if found != window {
         forgiven.push(Forgiven::Size(found));
     }
     let mine = fitted(given, size);
+    let lab = lab(size);
     if command.strict {
         return Ok(Held {
             difference: Difference::new(&mine, &right, Matching::Exact, tolerance),

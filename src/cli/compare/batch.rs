@@ -138,7 +138,7 @@ fn limited(words: &[std::ffi::OsString], limit: Duration) -> std::result::Result
         .map_err(failed)?;
     let out = child::read_all(child.stdout.take().expect("it is piped"));
     let err = child::read_all(child.stderr.take().expect("it is piped"));
-    let status = child::wait(&mut child, limit);
+    let status = child::wait(&mut child, child::Limit::Cores(limit));
     let (out, err) = (out.join(), err.join());
     let (out, err) = (out.unwrap_or_default(), err.unwrap_or_default());
     match status {

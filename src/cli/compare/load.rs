@@ -6,6 +6,9 @@ use image::{DynamicImage, RgbImage, imageops};
 use shadowlab::scene::{reading, texture};
 use shadowlab::{Error, Result};
 
+/// What a picture may take in memory: 8192×8192 pixels, which is more than any screen has.
+const MOST_BYTES: u64 = 4 << 26;
+
 /// A picture, as far as it is asked for.
 pub struct Loaded {
     pub picture: RgbImage,
@@ -17,7 +20,7 @@ pub struct Loaded {
 /// Reads a picture, or the part of it that `crop` names: x, y, width and height in pixels.
 pub fn load(path: &Path, crop: Option<[u32; 4]>) -> Result<Loaded> {
     let bytes = reading::read(path, reading::PICTURE_LIMIT)?;
-    let picture = texture::decode(path, &bytes, texture::MOST_BYTES)?;
+    let picture = texture::decode(path, &bytes, MOST_BYTES)?;
     if is_jpeg(&bytes) && is_cut_off(&bytes) {
         let message = "found a JPEG that is cut off, expected a whole one";
         return Err(Error::input(path, None, message));

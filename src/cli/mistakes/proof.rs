@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use image::RgbImage;
 use rayon::prelude::*;
-use shadowlab::compare;
 use shadowlab::diagnosis::{Diagnosis, Suspects};
 use shadowlab::labs::Handout;
 use shadowlab::mistakes;
@@ -160,9 +160,10 @@ fn prove(
 
     let perturbed = ALL[random.usize(1..ALL.len())];
     let tint = [(); 3].map(|()| random.i16(-MOST_TINT..=MOST_TINT));
+    // As `compare` does it: a picture of another size is one of a smaller window, or one that was scaled.
     let resized = match perturbed.size(size) {
         other if other == size => None,
-        other => Some(suspects(other)?),
+        other => Some((suspects(other)?, drawn.resized(other))),
     };
     // The right picture is told from the mistaken ones by having no names.
     asked.push((Vec::new(), &drawn.right));
@@ -170,14 +171,14 @@ fn prove(
         .par_iter()
         .map(|(_, picture)| {
             let again = perturbed.of(picture, tint);
-            let diagnose = |suspects: &Suspects, picture| {
+            let diagnose = |suspects: &Suspects, picture: &RgbImage| {
                 suspects.diagnose(picture, perturbed.tolerance(), false)
             };
-            // As `compare` does it: a picture of another size may be one of the course's window, scaled.
             let told_again = match &resized {
                 None => diagnose(&drawn, &again),
-                Some(suspects) => diagnose(suspects, &again)
-                    .or_better(diagnose(&drawn, &compare::resized(&again, size))),
+                Some((smaller, scaled)) => {
+                    diagnose(smaller, &again).or_better(diagnose(scaled, &again))
+                }
             };
             [
                 (

@@ -23,14 +23,13 @@ const BINDING: Binding = Binding {
 };
 
 /// Uniforms of the exact shadow test, and of the vertex shader as far as the test needs it.
-const TEST: [&str; 7] = [
+const TEST: [&str; 6] = [
     "uniform_m",
     "uniform_v",
     "uniform_p",
     "uniform_light_m",
     "uniform_sampler_diffuse",
     "uniform_outside",
-    "uniform_first_triangle",
 ];
 
 /// The test and the programs that are linked with it; made when it is first asked for.

@@ -59,25 +59,16 @@ impl Aueb7 {
     }
 
     /// What a shadow test needs of an object, beside its place as the eye sees it.
-    pub(super) fn set_shadow_test(
-        &self,
-        gl: &glow::Context,
-        program: &Program,
-        index: usize,
-        model: DMat4,
-    ) {
+    pub(super) fn set_shadow_test(&self, gl: &glow::Context, program: &Program, model: DMat4) {
+        // Where it is as the light sees it.
         match self.shadow_test() {
             ShadowTest::Exercises => (),
-            // Where it is as the light sees it.
             ShadowTest::Offset(offset) => {
                 let space = offset.test.fit().space;
                 program.set(gl, "uniform_light_m", space.from_object(model));
             }
-            // And which triangles are its own.
             ShadowTest::Exact(exact) => {
                 program.set(gl, "uniform_light_m", exact.test.from_object(model));
-                let first_triangle = exact.test.first_triangle(index);
-                program.set(gl, "uniform_first_triangle", first_triangle);
             }
         }
     }

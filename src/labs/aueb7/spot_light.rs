@@ -85,7 +85,7 @@ impl Aueb7 {
         self.draw(gl, |index, object, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
-            self.set_shadow_test(gl, program, index, model);
+            self.set_shadow_test(gl, program, model);
             let to_eye = DMat3::from_mat4(view * self.model_from_eye(model));
             let normal_matrix = to_eye.inverse().transpose();
             program.set(gl, "uniform_normal_matrix_ecs", normal_matrix);
@@ -109,7 +109,7 @@ impl Aueb7 {
         self.draw(gl, |index, _, model| {
             self.bind_texture(gl, index, &mut bound);
             self.set_model(gl, program, model);
-            self.set_shadow_test(gl, program, index, model);
+            self.set_shadow_test(gl, program, model);
             true
         });
     }

@@ -92,7 +92,6 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let test = [
         &MATRICES[..],
         &MODEL_MATRICES,
-        &["firstTriangle", "instanceTriangles"],
         &CONE,
         &directional.uniforms,
         &spot.uniforms,
@@ -101,7 +100,7 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let linked = |fragment: &str, others: &[&'static str]| {
         let uniforms = [&test[..], others].concat();
         let fragments = [fragment, exact::SHADER];
-        Program::linked(gl, shaders, "lighting_exact.vert", &fragments, &uniforms)
+        Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
     };
     let switches = ["normalMatrix", "directionalEnabled", "spotEnabled"];
     let lighting = linked("lighting_exact.frag", &[&LIGHTING[..], &switches].concat())?;
@@ -143,24 +142,17 @@ impl Cmsc23700 {
         }
     }
 
-    /// Where something is as the enabled lights see it, and which triangles are its own. Behind the objects' numbers comes
-    /// that of all balls.
+    /// Where something is as the enabled lights see it.
     pub(super) fn set_exact_test(
         &self,
         gl: &glow::Context,
         exact: &Exact,
         program: &Program,
-        number: usize,
         model: DMat4,
     ) {
         for light in self.enabled_lights() {
-            let test = &exact.tests[light];
-            program.set(gl, MODEL_MATRICES[light], test.from_object(model));
-            // Every light buffer counts the same triangles.
-            program.set(gl, "firstTriangle", test.first_triangle(number));
+            let matrix = exact.tests[light].from_object(model);
+            program.set(gl, MODEL_MATRICES[light], matrix);
         }
-        let instance = self.scene.objects.get(number).map(|object| &object.mesh);
-        let instance = instance.unwrap_or(&self.balls.mesh);
-        program.set(gl, "instanceTriangles", instance.faces.len() as i32);
     }
 }

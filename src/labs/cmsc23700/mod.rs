@@ -102,10 +102,6 @@ const SHADERS: &[(&str, &str)] = &[
         include_str!("../../../glsl/cmsc23700/explain.frag"),
     ),
     (
-        "lighting_exact.vert",
-        include_str!("../../../glsl/cmsc23700/lighting_exact.vert"),
-    ),
-    (
         "lighting_exact.frag",
         include_str!("../../../glsl/cmsc23700/lighting_exact.frag"),
     ),
@@ -114,8 +110,8 @@ const SHADERS: &[(&str, &str)] = &[
         include_str!("../../../glsl/cmsc23700/visibility_exact.frag"),
     ),
     (
-        "lighting_offset.vert",
-        include_str!("../../../glsl/cmsc23700/lighting_offset.vert"),
+        "lighting_lcs.vert",
+        include_str!("../../../glsl/cmsc23700/lighting_lcs.vert"),
     ),
     (
         "lighting_offset.frag",

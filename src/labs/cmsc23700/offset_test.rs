@@ -80,7 +80,7 @@ fn programs(gl: &glow::Context, shaders: &Shaders) -> Result<[Program; 2]> {
     let linked = |fragment: &str, others: &[&'static str]| {
         let uniforms = [&test[..], others].concat();
         let fragments = [fragment, offset::SHADER, TAPS.shader()];
-        Program::linked(gl, shaders, "lighting_offset.vert", &fragments, &uniforms)
+        Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
     };
     let switches = ["normalMatrix", "directionalEnabled", "spotEnabled"];
     let lighting = linked("lighting_offset.frag", &[&LIGHTING[..], &switches].concat())?;

@@ -90,8 +90,8 @@ impl Cmsc23700 {
         self.draw_scene(
             gl,
             |_| true,
-            |number, model| {
-                self.set_shadow_test(gl, program, number, model);
+            |_, model| {
+                self.set_shadow_test(gl, program, model);
                 let model_view = self.model_view(model);
                 let normal_matrix = DMat3::from_mat4(model_view).inverse().transpose();
                 program.set(gl, "modelView", model_view);
@@ -125,8 +125,8 @@ impl Cmsc23700 {
         self.draw_scene(
             gl,
             |_| true,
-            |number, model| {
-                self.set_shadow_test(gl, program, number, model);
+            |_, model| {
+                self.set_shadow_test(gl, program, model);
                 program.set(gl, "modelView", self.model_view(model));
             },
         );

@@ -75,19 +75,12 @@ impl Cmsc23700 {
         }
     }
 
-    /// What a shadow test needs of an object, beside its place as the eye sees it. Behind the objects' numbers comes that
-    /// of all balls.
-    pub(super) fn set_shadow_test(
-        &self,
-        gl: &glow::Context,
-        program: &Program,
-        number: usize,
-        model: DMat4,
-    ) {
+    /// What a shadow test needs of an object, beside its place as the eye sees it.
+    pub(super) fn set_shadow_test(&self, gl: &glow::Context, program: &Program, model: DMat4) {
         match self.shadow_test() {
             ShadowTest::Handout => (),
             ShadowTest::Offset(offset) => self.set_offset_test(gl, offset, program, model),
-            ShadowTest::Exact(exact) => self.set_exact_test(gl, exact, program, number, model),
+            ShadowTest::Exact(exact) => self.set_exact_test(gl, exact, program, model),
         }
     }
 }

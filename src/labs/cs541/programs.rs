@@ -188,8 +188,7 @@ fn exact_program(
     others: &[&'static str],
 ) -> Result<Program> {
     let fragments = [fragment, exact::SHADER];
-    let own = ["first_triangle"];
-    let uniforms = [&MATRICES[..], &LCS_TEST, &own, &exact::LIGHT_BUFFER, others];
+    let uniforms = [&MATRICES[..], &LCS_TEST, &exact::LIGHT_BUFFER, others];
     let uniforms = uniforms.concat();
     Program::linked(gl, shaders, "lighting_lcs.vert", &fragments, &uniforms)
 }

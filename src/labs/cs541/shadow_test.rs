@@ -66,17 +66,15 @@ impl Cs541 {
     /// What a shadow test needs of an object, beside its model matrix.
     pub(super) fn set_shadow_test(&self, gl: &glow::Context, program: &Program, index: usize) {
         let model = self.scene.objects[index].model(self.time);
+        // Where it is as the light sees it.
         match self.shadow_test() {
             ShadowTest::Handout => (),
-            // Where it is as the light sees it.
             ShadowTest::Offset(offset) => {
                 let space = offset.test.fit().space;
                 program.set(gl, "light_model_matrix", space.from_object(model));
             }
-            // And which triangles are its own.
             ShadowTest::Exact(exact) => {
                 program.set(gl, "light_model_matrix", exact.test.from_object(model));
-                program.set(gl, "first_triangle", exact.test.first_triangle(index));
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::gl::{self, Program, Shaders};
 use crate::shadow_tests::exact::{self, Binding, Builder, ExactTest, LIGHT_BUFFER};
 
 /// Uniforms of the exact shadow test, and of the vertex shader as far as the test needs it.
-const TEST: [&str; 3] = ["MVP", "DepthBiasMVP", "firstTriangle"];
+const TEST: [&str; 2] = ["MVP", "DepthBiasMVP"];
 
 const BINDING: Binding = Binding {
     pass: "the light buffer",

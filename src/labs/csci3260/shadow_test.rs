@@ -55,7 +55,7 @@ impl Csci3260 {
         }
     }
 
-    /// Where a model is as the camera and the light see it, and what else its shadow test needs.
+    /// Where a model is as the camera and the light see it.
     pub(super) fn send_object(&self, gl: &glow::Context, program: &Program, index: usize) {
         let object = &self.scene().objects[index];
         let model = self.model_matrix(object);
@@ -69,7 +69,6 @@ impl Csci3260 {
             ShadowTest::Exact(exact) => {
                 program.set(gl, "MVP", self.mvp(object));
                 program.set(gl, "DepthBiasMVP", exact.test.from_object(model));
-                program.set(gl, "firstTriangle", exact.test.first_triangle(index));
             }
         }
     }

@@ -68,6 +68,7 @@ impl Eecs487 {
             steps: self.steps(&view, wall, pixel, [depth, exact]),
             tests,
             in_shadow: Some(in_shadow),
+            look_up: None,
         })
     }
 

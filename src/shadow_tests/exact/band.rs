@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 
-use super::caster::Caster;
+use super::caster::Listed;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
 use super::node::Node;
 use crate::shadow_tests::polygon::{PADDING, extent, larger, smaller, visit_rows};
@@ -31,7 +31,7 @@ pub struct Content<'a> {
     pub points: &'a [DVec3],
     pub seen: &'a [Seen],
     /// By their numbers.
-    pub casters: &'a [Caster],
+    pub casters: &'a [Listed],
 }
 
 /// A shape on a face.
@@ -214,13 +214,7 @@ impl Band {
     }
 
     /// The cells with their lists, one list behind the other, without what lies in the dark anyway.
-    pub fn write(
-        &self,
-        cells: &mut [Cell],
-        lists: &mut [Node],
-        first: u32,
-        node: &impl Fn(u32) -> Node,
-    ) {
+    pub fn write(&self, cells: &mut [Cell], lists: &mut [Node], first: u32, casters: &[Listed]) {
         let mut next = first;
         for (cell, from) in cells.iter_mut().zip(&self.cells) {
             *cell = Cell {
@@ -234,7 +228,7 @@ impl Band {
         for entry in &self.entries {
             let cell = &mut cells[entry.cell as usize];
             if entry.nearest >= cell.dark_below {
-                lists[(cell.end - first) as usize] = node(entry.caster);
+                lists[(cell.end - first) as usize] = casters[entry.caster as usize].node;
                 cell.end += 1;
             }
         }

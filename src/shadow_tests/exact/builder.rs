@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::band::{Cell, Content};
-use super::caster::Caster;
+use super::caster::{Caster, Listed};
 use super::grid::Filling;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
 use super::node::{self, Node};
@@ -27,8 +27,6 @@ pub struct LightBuffer {
     /// Three for the edges of each triangle, in the order of the triangles' numbers: those of casters are filled in. Then
     /// the cells' lists, one behind the other.
     pub nodes: Vec<Node>,
-    /// The number of each mesh's first triangle.
-    pub first_triangles: Vec<u32>,
     pub triangle_count: u32,
 }
 
@@ -40,14 +38,13 @@ pub struct Builder {
     points: Vec<DVec3>,
     seen: Vec<Seen>,
     /// By the triangles' numbers, where they cast.
-    casters: Vec<Caster>,
+    casters: Vec<Listed>,
     shapes: Vec<Shape>,
     filling: Filling,
     spare: Option<LightBuffer>,
 }
 
 impl Builder {
-    /// `scene` is in the order in which it is drawn.
     pub fn build(&mut self, light: &Light, scene: &[Placed]) -> &LightBuffer {
         let topologies: Vec<_> = scene.iter().map(|placed| self.topology(placed)).collect();
         let boxes = scene.iter().zip(&topologies);
@@ -60,7 +57,7 @@ impl Builder {
         let (mut cells, mut nodes) = spare.unwrap_or_default();
         let faces = topologies.iter().map(|topology| topology.faces.len());
         let triangle_count: usize = faces.sum();
-        self.casters.resize(triangle_count, Caster::default());
+        self.casters.resize(triangle_count, Listed::default());
         // What the last build left is written over, and not cleared.
         nodes.resize(nodes.len().max(3 * triangle_count), Node::default());
         self.points.clear();
@@ -76,10 +73,8 @@ impl Builder {
             shapes: &mut self.shapes,
             groups: 0,
         };
-        let mut first_triangles = Vec::new();
         let mut first = 0;
         for (placed, topology) in scene.iter().zip(&topologies) {
-            first_triangles.push(first);
             if placed.casts {
                 found.add(space.from_object(placed.model), topology, first);
             }
@@ -98,17 +93,13 @@ impl Builder {
         cells.resize(layout.cell_count(), Cell::default());
         nodes.resize(3 * triangle_count + listed, Node::default());
         let (_, lists) = nodes.split_at_mut(3 * triangle_count);
-        let casters = &self.casters;
         self.filling
-            .write(layout.side, &mut cells, lists, 3 * first, |number| {
-                node::of_plane(&casters[number as usize], number)
-            });
+            .write(layout.side, &mut cells, lists, 3 * first, &self.casters);
         self.spare.insert(LightBuffer {
             space,
             layout,
             cells,
             nodes,
-            first_triangles,
             triangle_count: first,
         })
     }
@@ -143,7 +134,7 @@ struct Found<'a> {
     receivers: Vec<DVec3>,
     points: &'a mut Vec<DVec3>,
     seen: &'a mut Vec<Seen>,
-    casters: &'a mut [Caster],
+    casters: &'a mut [Listed],
     edges: &'a mut [Node],
     shapes: &'a mut Vec<Shape>,
     groups: u32,
@@ -175,7 +166,7 @@ impl Found<'_> {
             else {
                 return Cast::Nothing;
             };
-            *caster = found;
+            *caster = found.listed(number as u32);
             let planes = found.edges(rays, corners);
             edges.copy_from_slice(&node::of_edges(planes, number as u32));
             match found.faces_light {

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::node::{self, Node};
 use crate::shadow_tests::polygon::larger;
 use crate::shadow_tests::space::Rays;
 
@@ -13,7 +14,7 @@ const EDGE_ON: f64 = 1e-12;
 const TOLERANCE: f64 = 1e-6;
 
 /// A triangle that casts, in the light's space.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Caster {
     pub faces_light: bool,
     /// plane · through(point) is 1 on the triangle's plane, and more behind it. Where rays are parallel it is the plane's
@@ -23,6 +24,15 @@ pub struct Caster {
     pub shifted: DVec3,
     /// What rounding may add to plane · through(point) anywhere on the triangle.
     pub rounding: f64,
+}
+
+/// A caster as the grid lists it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Listed {
+    pub plane: DVec3,
+    pub rounding: f64,
+    /// Its entry in a list.
+    pub node: Node,
 }
 
 /// How far a triangle's normal points the way that the rays go, in whatever unit: negative where it faces the light.
@@ -77,6 +87,15 @@ impl Caster {
             shifted,
             rounding,
         })
+    }
+
+    /// What the grid needs of it, under this number.
+    pub fn listed(&self, number: u32) -> Listed {
+        Listed {
+            plane: self.plane,
+            rounding: self.rounding,
+            node: node::of_plane(self, number),
+        }
     }
 
     /// Planes through the light and an edge each; the triangle is on the positive side. Two triangles that share an edge

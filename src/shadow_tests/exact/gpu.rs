@@ -60,7 +60,6 @@ struct Values {
     rectangle: DVec4,
     side: i32,
     space: LightSpace,
-    first_triangles: Vec<u32>,
 }
 
 struct BufferTexture {
@@ -85,8 +84,7 @@ impl ExactTest {
         })
     }
 
-    /// Builds the light buffer if the light or something in the scene has moved, or `always`. `scene` is in the order in
-    /// which it is drawn.
+    /// Builds the light buffer if the light or something in the scene has moved, or `always`.
     pub fn prepare(
         &mut self,
         gl: &glow::Context,
@@ -115,7 +113,6 @@ impl ExactTest {
             rectangle: least.extend(scale.x).extend(scale.y),
             side: side as i32,
             space: light_buffer.space,
-            first_triangles: light_buffer.first_triangles.clone(),
         };
         upload(gl, &mut self.textures, light_buffer, self.most_texels)?;
         self.built = Some((inputs, values));
@@ -141,11 +138,6 @@ impl ExactTest {
     /// Object space to the light's.
     pub fn from_object(&self, model: DMat4) -> DMat4 {
         self.values().space.from_object(model)
-    }
-
-    /// The number of the first triangle of what is drawn in this place.
-    pub fn first_triangle(&self, place: usize) -> i32 {
-        self.values().first_triangles[place] as i32
     }
 
     /// Tells a program, which must be in use, where the textures are, whether or not there is anything in them: units of

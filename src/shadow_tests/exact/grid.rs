@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::band::{Band, Cell, Content, Piece};
 use super::builder::WORTH_A_THREAD;
+use super::caster::Listed;
 use super::node::Node;
 use crate::shadow_tests::polygon::rows;
 
@@ -56,7 +57,7 @@ impl Filling {
         mut cells: &mut [Cell],
         mut lists: &mut [Node],
         mut first: u32,
-        node: impl Fn(u32) -> Node + Sync,
+        casters: &[Listed],
     ) {
         let mut parts = Vec::new();
         for band in &self.bands {
@@ -69,7 +70,7 @@ impl Filling {
             first += band.listed;
         }
         let parts = parts.into_par_iter();
-        parts.for_each(|(band, cells, lists, first)| band.write(cells, lists, first, &node));
+        parts.for_each(|(band, cells, lists, first)| band.write(cells, lists, first, casters));
     }
 }
 

@@ -19,14 +19,17 @@
 //! centre is; lengths are in units of the scene's size. It is rounded to f32 once, when it is stored. So it is the same
 //! wherever the scene lies and however large it is.
 //!
-//! What faces away from the light: a triangle that casts is in its own shadow there, so visibility is 0; one that casts
-//! on nothing (a floor under everything, seen from below) is not asked about, and visibility is 1. In the picture both
-//! are as dark as the lab's shading makes them; only where smooth normals face the light and their triangle does not, the
-//! first rule is seen: without it the terminator would be lit in patches. (And in cmsc23700, whose shadows darken a
-//! light's ambient part, too.)
+//! A point is on a triangle that may cast. Which one that is, is not asked: gl_PrimitiveID would tell, but where a shader
+//! uses it, llvmpipe takes meshes apart triangle by triangle, which with 200,000 of them is a seventh of a frame. The
+//! position's derivatives tell the triangle's plane, and that is enough: what faces away from the light is in its own
+//! shadow (however its normals are smoothed: without that the terminator would be lit in patches), and a caster that
+//! faces the light casts nothing onto its own plane.
 //!
 //! What it cannot see: a camera inside a closed solid, which the light is outside of, sees what else is in there lit.
-//! Of a closed solid only the far side casts, and there it has none behind it.
+//! Of a closed solid only the far side casts, and there it has none behind it. Nor what is nearer to a shadow's edge, as
+//! the light sees it, than f32 tells places apart: 2⁻²⁴ of the scene's size. Where the light grazes the surface, the truth
+//! may call such a point certain: moved by 1/256 pixel along the surface it hardly leaves its ray to the light. Of the
+//! bumpy sphere of 200,000 triangles, 4 of 480,000 pixels are wrong for that reason.
 
 mod band;
 mod builder;

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 
 use super::{Aueb7, HANDOUT};
 use crate::gl;
-use crate::labs::{Explanation, Lab, Probe, Show, Step};
+use crate::labs::{Explanation, Lab, LookUp, Probe, Show, Step};
 use crate::{Error, Result};
 use exact::Exact;
 use fragment::Fragment;
@@ -58,6 +58,10 @@ impl Aueb7 {
             steps: self.steps(&fragment, &exact),
             tests: self.tests(&fragment, &exact),
             in_shadow: Some(fragment.shadow_factor < 0.5),
+            look_up: Some(LookUp {
+                uv: fragment.position_lcs.truncate().truncate(),
+                depth: fragment.nearer,
+            }),
         })
     }
 

@@ -8,7 +8,7 @@ use glam::{DMat4, DVec3};
 use super::lights::{cos_cutoff, to_texture};
 use super::{Cmsc23700, HANDOUT, SPOT};
 use crate::gl;
-use crate::labs::{Explanation, Lab, Probe, Show, Step};
+use crate::labs::{Explanation, Lab, LookUp, Probe, Show, Step};
 use crate::{Error, Result};
 use exact::Exact;
 use fragment::Fragment;
@@ -58,6 +58,12 @@ impl Cmsc23700 {
             tests: self.tests(&fragment, &exact, light - 1),
             // As the visibility is read: dark below the half of it.
             in_shadow: Some(fragment.shadow < 0.75),
+            look_up: self
+                .is_asked(fragment.spot_dot, light - 1)
+                .then_some(LookUp {
+                    uv: fragment.place.truncate(),
+                    depth: fragment.nearer,
+                }),
         })
     }
 

@@ -12,7 +12,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4, dvec2};
 use super::{Cs541, HANDOUT, second_pass};
 use crate::gl;
 use crate::labs::exact::{ROUNDING, Range, SNAP, corners};
-use crate::labs::{Explanation, Probe, Show, Step};
+use crate::labs::{Explanation, LookUp, Probe, Show, Step};
 use crate::scene::camera;
 use crate::{Error, Result};
 use exact::ShadowPosition;
@@ -222,6 +222,10 @@ impl Cs541 {
             steps,
             tests,
             in_shadow: Some(fragment.in_shadow),
+            look_up: fragment.in_front.then_some(LookUp {
+                uv: fragment.uv,
+                depth: fragment.nearer_depth,
+            }),
         }
     }
 

@@ -9,7 +9,7 @@ use super::basic_shader::bias_matrix;
 use super::{Csci3260, HANDOUT};
 use crate::gl;
 use crate::labs::exact::Range;
-use crate::labs::{Explanation, Probe, Show, Step};
+use crate::labs::{Explanation, LookUp, Probe, Show, Step};
 use crate::{Error, Result};
 use exact::Exact;
 use fragment::Fragment;
@@ -55,6 +55,10 @@ impl Csci3260 {
             tests: self.tests(&fragment, &exact),
             // As the visibility is read: dark below the half of it.
             in_shadow: Some(fragment.visibility < 0.75),
+            look_up: Some(LookUp {
+                uv: fragment.shadow_coord.truncate(),
+                depth: fragment.nearer,
+            }),
         })
     }
 

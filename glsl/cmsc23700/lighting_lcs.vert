@@ -1,6 +1,6 @@
 #version 330 core
-// lighting.vert for the exact shadow test: where each vertex is as the lights see it, in place of its texture coordinates
-// for the shadow maps. A test holds the two files equal but for that.
+// lighting.vert for the offset and the exact shadow test: where each vertex is as the lights see it, in place of its
+// texture coordinates for the shadow maps. A test holds the two files equal but for that.
 
 in vec3 position;
 in vec3 normal;
@@ -14,17 +14,12 @@ uniform mat4 projection;
 // Object space to each light's coordinate system: it shines along -z.
 uniform mat4 directionalModelMatrix;
 uniform mat4 spotModelMatrix;
-// As the light buffers count: the first triangle of the first instance, and how many triangles an instance has.
-uniform int firstTriangle;
-uniform int instanceTriangles;
 
 out vec3 eyePosition;
 out vec3 eyeNormal;
 out vec3 C_in;
 out vec3 directionalCoord;
 out vec3 spotCoord;
-// The first triangle of this instance.
-flat out int instanceStart;
 
 void main()
 {
@@ -36,5 +31,4 @@ void main()
     C_in = color;
     directionalCoord = (directionalModelMatrix * vec4(position + center, 1.0)).xyz;
     spotCoord = (spotModelMatrix * vec4(position + center, 1.0)).xyz;
-    instanceStart = firstTriangle + gl_InstanceID * instanceTriangles;
 }
