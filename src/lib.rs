@@ -11,6 +11,7 @@
 //! | [`measure`] | a visibility picture against the truth, in figures |
 //! | [`compare`] | a student's picture against a reference: what is forgiven, what differs, where its shadows are |
 //! | [`mistakes`] | the classic mistakes, as edits of shaders, uniforms and calls |
+//! | [`calls`] | a dump of a program's GL calls, held against a handout |
 //! | [`diagnosis`] | which mistake explains a picture |
 //! | [`own_shaders`] | a student's shaders in a lab's place: what is wrong with them, where their shadows are |
 //! | [`hard`] | scenes on which shadow tests are known to break, and what must come of each test |
@@ -25,6 +26,7 @@
 //! `shadow_tests` and `gl`, `gl` uses `scene`.
 #![deny(unsafe_code)]
 
+pub mod calls;
 pub mod compare;
 pub mod diagnosis;
 pub mod error;

@@ -28,6 +28,7 @@ const ROOMS: &[Room] = &[
             "window",
             "report",
             "diagnosis",
+            "calls",
             "mistakes",
             "own_shaders",
             "compare",
@@ -106,6 +107,13 @@ const ROOMS: &[Room] = &[
     Room {
         name: "diagnosis",
         imports: &["mistakes", "compare", "error"],
+        crates: &[],
+        may_be_unsafe: false,
+    },
+    // Reads the calls that somebody else's program made; makes none.
+    Room {
+        name: "calls",
+        imports: &["mistakes", "progress", "error"],
         crates: &[],
         may_be_unsafe: false,
     },

@@ -1,6 +1,7 @@
 //! The commands and their options.
 
 mod check_shaders;
+mod check_trace;
 mod child;
 mod compare;
 mod gallery;
@@ -58,6 +59,8 @@ enum Command {
     Compare(compare::CompareCommand),
     /// Hold my own shaders against the lab's: names, types and texture units, then the picture
     CheckShaders(check_shaders::CheckShadersCommand),
+    /// Hold a dump of my own program's GL calls against the handout's steps
+    CheckTrace(check_trace::CheckTraceCommand),
     /// Show the classic mistakes, each beside the right picture: a page
     Mistakes(mistakes::MistakesCommand),
     /// Hold settings against each other, in time and in wrong pixels: a page, CSV and JSON
@@ -138,6 +141,7 @@ impl Cli {
         match self.command {
             Command::Compare(options) => return options.run(),
             Command::CheckShaders(options) => return options.run(),
+            Command::CheckTrace(options) => return options.run(),
             Command::View(options) => options.run(),
             Command::Screenshot(options) => options.run(),
             Command::Trace(options) => options.run(),
@@ -165,15 +169,19 @@ impl Cli {
             Command::CheckShaders(options) => return Some(options.folder_and_limit()),
             // These draw for as long as a person likes, and try the shaders first.
             Command::View(_) | Command::Report(_) => return None,
-            Command::Mistakes(_) | Command::Labs | Command::Devices => return None,
+            Command::Mistakes(_) | Command::CheckTrace(_) => return None,
+            Command::Labs | Command::Devices => return None,
         };
         Some((changes.glsl.clone()?, changes.limit))
     }
 
-    /// The exit code of every error, where it does not hang on the error: of compare it is diff's.
+    /// The exit code of every error, where it does not hang on the error: of those that compare it is diff's.
     pub fn trouble_code(&self) -> Option<u8> {
-        matches!(self.command, Command::Compare(_) | Command::CheckShaders(_))
-            .then_some(compare::TROUBLE)
+        match self.command {
+            Command::Compare(_) | Command::CheckShaders(_) => Some(compare::TROUBLE),
+            Command::CheckTrace(_) => Some(check_trace::TROUBLE),
+            _ => None,
+        }
     }
 }
 
