@@ -343,8 +343,6 @@ fn a_students_own_shadow_test_takes_the_place_of_the_handouts() {
     assert!(wrong[0] != handouts[0] && wrong[1] != handouts[1]);
 
     // What is wrong in it is told with its name and line.
-    // In a context that is still there.
-    let bench = bench(&hard);
     let folder = work_folder("aueb7_glsl_wrong");
     let path = folder.join("is_point_in_shadow.frag");
     std::fs::write(&path, own.replace("return 1.0;", "return 1.0 1.0;")).unwrap();
