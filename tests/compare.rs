@@ -423,11 +423,13 @@ fn wrong_input_is_one_line_and_2() {
     let refused = shadowlab(&folder, "explain cs541 --pixel 1,1 --mistake no_bias");
     assert_eq!(refused.status.code(), Some(2));
     // Their shaders are others, in which nothing would be edited.
-    let state = "--mistake no_bias --set shadow_test=exact";
-    let refused = shadowlab(&folder, &format!("screenshot cs541 {state}"));
-    let told = String::from_utf8(refused.stderr).unwrap();
-    assert_eq!((refused.status.code(), told.lines().count()), (Some(2), 1));
-    assert!(told.contains("shadow_test=handout, found exact"), "{told}");
+    for state in ["--set shadow_test=exact", "--keys <Set:shadow_test=exact>"] {
+        let drawn = format!("screenshot cs541 --mistake no_bias {state}");
+        let refused = shadowlab(&folder, &drawn);
+        let told = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!((refused.status.code(), told.lines().count()), (Some(2), 1));
+        assert!(told.contains("shadow_test=handout, found exact"), "{told}");
+    }
 }
 
 /// The reference is then another test's picture, and the shadows are judged as ever.

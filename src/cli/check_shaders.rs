@@ -11,9 +11,10 @@ use shadowlab::labs::{self, Handout, Show};
 use shadowlab::own_shaders::{self, Checked, Finding};
 use shadowlab::{Error, Result, gl, picture};
 
+use super::changes::Changes;
 use super::compare::{CompareCommand, DIFFERENT, Judged, SAME};
 use super::print;
-use super::state::{Changes, Drawing, Running, State};
+use super::state::{Drawing, Running, State};
 use super::values::check_light;
 
 #[derive(Args)]

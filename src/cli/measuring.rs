@@ -15,8 +15,9 @@ use shadowlab::progress::Progress;
 use shadowlab::scene::texture;
 use shadowlab::{Error, Result, picture};
 
+use super::changes::Changes;
 use super::print;
-use super::state::{Changes, Drawing, Running, State};
+use super::state::{Drawing, Running, State};
 use super::values::check_light;
 
 #[derive(Args)]

@@ -1,5 +1,6 @@
 //! The commands and their options.
 
+mod changes;
 mod check_shaders;
 mod check_trace;
 mod child;

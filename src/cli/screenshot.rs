@@ -7,7 +7,8 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Show};
 use shadowlab::{Result, gl, picture};
 
-use super::state::{Changes, Drawing, Running, State};
+use super::changes::Changes;
+use super::state::{Drawing, Running, State};
 use super::values::check_light;
 use super::{gallery, print};
 

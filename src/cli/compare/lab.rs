@@ -11,7 +11,8 @@ use shadowlab::measure::{Measure, only_known};
 use shadowlab::mistakes::{self, Edits};
 
 use super::judged::Read;
-use crate::cli::state::{Changes, Drawing, State};
+use crate::cli::changes::Changes;
+use crate::cli::state::{Drawing, State};
 
 /// From here on a pixel is lit.
 const LIT: u8 = 128;

@@ -18,8 +18,9 @@ use shadowlab::headless::Choice;
 use shadowlab::labs::{self, Handout};
 use shadowlab::{Error, Result, picture};
 
+use super::changes::Changes;
 use super::print;
-use super::state::{Changes, State};
+use super::state::State;
 use super::values::parse_crop;
 pub use judged::Judged;
 use load::Loaded;

@@ -3,7 +3,8 @@
 use clap::Parser;
 use shadowlab::labs::{Handout, Input, Kind, Setting, parse_keys};
 
-use crate::cli::state::{Changes, State};
+use crate::cli::changes::Changes;
+use crate::cli::state::State;
 
 /// What decides on shadows as a whole, or on nothing that a picture shows.
 const LEFT_ALONE: [&str; 4] = ["shadows", "shadow_test", "redraw", "soft_method"];

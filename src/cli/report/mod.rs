@@ -19,7 +19,8 @@ use shadowlab::report::{
 use shadowlab::{Error, Result};
 use signal_hook::consts::SIGINT;
 
-use crate::cli::state::{Changes, Drawing, State};
+use crate::cli::changes::Changes;
+use crate::cli::state::{Drawing, State};
 use crate::cli::{child, print};
 
 #[derive(Args)]
