@@ -1,8 +1,11 @@
 //! A dump of any length is read in memory that does not grow. Alone in its program: others would share its memory.
 
+mod common;
+
 use std::io::{BufReader, Read};
 use std::path::Path;
 
+use common::memory;
 use shadowlab::calls;
 use shadowlab::progress::Progress;
 
@@ -45,16 +48,6 @@ impl Read for Repeated {
     }
 }
 
-/// The most resident memory so far, in KiB.
-fn peak() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap();
-    let line = status
-        .lines()
-        .find(|line| line.starts_with("VmHWM:"))
-        .unwrap();
-    line.split_whitespace().nth(1).unwrap().parse().unwrap()
-}
-
 #[test]
 fn a_long_dump_takes_no_more_memory() {
     let text = std::fs::read_to_string(
@@ -73,7 +66,7 @@ fn a_long_dump_takes_no_more_memory() {
         left: LENGTH,
     };
 
-    let before = peak();
+    let before = memory("VmHWM");
     let progress = Progress::new("reading", LENGTH as u64);
     let report = calls::check(
         BufReader::new(dump),
@@ -82,7 +75,7 @@ fn a_long_dump_takes_no_more_memory() {
         &progress,
     )
     .unwrap();
-    let grown = peak() - before;
+    let grown = memory("VmHWM") - before;
     println!("{} frames, {grown} KiB more", report.frames);
     assert!(report.frames > 20_000, "{} frames", report.frames);
     assert!(report.is_clean(), "{}", report.text());
@@ -90,5 +83,5 @@ fn a_long_dump_takes_no_more_memory() {
 
     // The control: memory that is held is seen.
     let held = vec![1_u8; 4 * MOST_KIB as usize * 1024];
-    assert!(peak() - before > MOST_KIB && held.iter().all(|byte| *byte == 1));
+    assert!(memory("VmHWM") - before > MOST_KIB && held.iter().all(|byte| *byte == 1));
 }

@@ -131,8 +131,8 @@ fn article(lab: &Handout, entry: &Entry) -> Markup {
                 td {
                     @if entry.options.is_none() {
                         p {
-                            "No picture of this lab shows it, in any state that was tried. It is for a check of the \
-                             calls."
+                            "No picture of this lab shows it, in any state that was tried. "
+                            code { "check-trace" } " or " code { "check-shaders" } " may."
                         }
                     }
                     table {

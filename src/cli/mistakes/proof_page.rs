@@ -121,7 +121,7 @@ fn of_lab(lab: &Handout, proof: &Proof) -> Markup {
         h2 { (lab.title) }
         p { (proof.drawn) " states were drawn." }
         @if !unseen.is_empty() {
-            p { "No picture showed " (unseen.join(", ")) ": for a check of the calls." }
+            p { "No picture showed " (unseen.join(", ")) ": for a check of the calls, or of the shaders." }
         }
         (by_picture(&[proof]))
         h3 { "By mistake" }
