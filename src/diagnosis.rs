@@ -47,8 +47,8 @@ pub struct Explanation {
     pub explained: f64,
     /// Their picture in this state.
     pub picture: RgbImage,
-    /// Whether it explains the picture turned upside down.
-    pub upside_down: bool,
+    /// What is forgiven of the picture for it.
+    pub forgiven: Vec<Forgiven>,
 }
 
 #[derive(Clone, Debug)]
@@ -142,17 +142,17 @@ impl Suspects {
 
     /// Of a picture of the same size. What is no mistake is forgiven against each picture anew, unless `strict`.
     pub fn diagnose(&self, mine: &RgbImage, tolerance: u8, strict: bool) -> Diagnosis {
-        // What is left, and whether the picture was turned for it.
+        // What is left, and what was forgiven for it.
         let left = |picture: &RgbImage, range: &Envelope| {
             if strict {
-                return (range.share_outside(mine, tolerance), false);
+                return (range.share_outside(mine, tolerance), Vec::new());
             }
             let found = forgive(mine.clone(), picture);
             let left = match &found.darkened_reference {
                 Some(darkened) => Envelope::new(darkened).share_outside(&found.mine, tolerance),
                 None => range.share_outside(&found.mine, tolerance),
             };
-            (left, found.forgiven.contains(&Forgiven::UpsideDown))
+            (left, found.forgiven)
         };
         let (wrong, _) = left(&self.right, &self.right_range);
         if wrong <= SAME {
@@ -166,10 +166,10 @@ impl Suspects {
             (1000.0 * either_way[0].min(either_way[1])) as u64
         });
         let explanations = nearest.into_iter().take(LOOKED_AT).map(|group| {
-            let (left, upside_down) = left(&group.picture, &group.range);
+            let (left, forgiven) = left(&group.picture, &group.range);
             Explanation {
                 picture: group.picture.clone(),
-                upside_down,
+                forgiven,
                 mistakes: group.mistakes.clone(),
                 left,
                 explained: 1.0 - left / wrong,

@@ -105,7 +105,7 @@ fn a_mistake_is_named() {
 
 /// So dark that it is like the lab's either way up, until it is known what it shows.
 #[test]
-fn a_mistaken_picture_may_be_upside_down() {
+fn a_mistaken_picture_may_be_upside_down_or_brightened() {
     let folder = work_folder("compare_turned");
     let mine = draw(&folder, "aueb7 --mistake bias_matrix_missing", "mine.png");
     let (_, upright) = compare(&folder, "mine.png aueb7");
@@ -120,6 +120,24 @@ fn a_mistaken_picture_may_be_upside_down() {
     assert!(!words(&upright["forgiven"]).contains("upside down"));
     assert_eq!(turned["shadows"], upright["shadows"]);
     assert_eq!(first(&turned), ["bias_matrix_missing"]);
+    // So is another curve: its shadows are read after it is undone, up to what levels have lost.
+    let mut brightened = mine;
+    for Rgb(channels) in brightened.pixels_mut() {
+        let gamma = |v: u8| (255.0 * (f64::from(v) / 255.0).powf(1.0 / 2.2)).round() as u8;
+        *channels = channels.map(gamma);
+    }
+    brightened.save(folder.join("brightened.png")).unwrap();
+    let (_, brightened) = compare(&folder, "brightened.png aueb7");
+    assert!(
+        words(&brightened["forgiven"]).contains("1/2.2"),
+        "{brightened}"
+    );
+    let wrong = |found: &Value| found["shadows"]["false_shadow"]["pixels"].as_f64().unwrap();
+    let (wrong, expected) = (wrong(&brightened), wrong(&upright));
+    assert!(
+        (wrong - expected).abs() < 0.01 * expected,
+        "{wrong} {expected}"
+    );
 }
 
 #[test]

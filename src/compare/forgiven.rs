@@ -73,7 +73,7 @@ impl Forgiving {
     /// The picture in the reference's own curve.
     pub fn brightened(&self) -> RgbImage {
         match self.darkened {
-            Some(curve) => curve.inverse().applied(&self.mine),
+            Some(curve) => curve.undone(&self.mine),
             None => self.mine.clone(),
         }
     }
@@ -101,7 +101,7 @@ pub fn forgive(mine: RgbImage, reference: &RgbImage) -> Forgiving {
             found.darkened = Some(curve);
             found.darkened_reference = Some(curve.applied(reference));
         } else {
-            found.mine = curve.inverse().applied(&found.mine);
+            found.mine = curve.undone(&found.mine);
         }
     }
     let reference = found.darkened_reference.as_ref().unwrap_or(reference);
@@ -166,6 +166,11 @@ fn curve_of(mine: &RgbImage, reference: &RgbImage) -> Option<Curve> {
 }
 
 impl Curve {
+    /// A picture without it, as far as levels can tell.
+    pub fn undone(self, picture: &RgbImage) -> RgbImage {
+        self.inverse().applied(picture)
+    }
+
     fn darkens(self) -> bool {
         matches!(self, Self::Darkened | Self::SrgbDecoded)
     }

@@ -112,14 +112,19 @@ pub fn judge_loaded(
         })
     };
 
-    // A mistake can hide which way up a picture is, until it is known.
-    if let Some(Diagnosis::Explained(found)) = &diagnosis
-        && found[0].upside_down
-        && !held.forgiven.contains(&Forgiven::UpsideDown)
-    {
-        given = imageops::flip_vertical(&given);
-        held = hold(&given, size)?;
-        held.forgiven.push(Forgiven::UpsideDown);
+    // A mistake can hide which way up a picture is, and its curve, until it is known.
+    if let Some(Diagnosis::Explained(found)) = &diagnosis {
+        let hidden: Vec<Forgiven> = hidden(&found[0].forgiven, &held.forgiven);
+        if !hidden.is_empty() {
+            for forgiven in &hidden {
+                given = match forgiven {
+                    Forgiven::Curve(curve) => curve.undone(&given),
+                    _ => imageops::flip_vertical(&given),
+                };
+            }
+            held = hold(&given, size)?;
+            held.forgiven.extend(hidden);
+        }
     }
     if tolerance == TOLERANCE_OF_JPEG {
         held.forgiven.insert(0, Forgiven::Jpeg);
@@ -198,6 +203,17 @@ fn hold<'a>(
         difference,
         forgiven,
     })
+}
+
+/// What turns out to be forgiven when the mistake is known, of what the right picture could not tell.
+fn hidden(known: &[Forgiven], before: &[Forgiven]) -> Vec<Forgiven> {
+    let is_curve = |forgiven: &Forgiven| matches!(forgiven, Forgiven::Curve(_));
+    let is_new = |forgiven: &&Forgiven| match forgiven {
+        Forgiven::UpsideDown => !before.contains(&Forgiven::UpsideDown),
+        Forgiven::Curve(_) => !before.iter().any(is_curve),
+        _ => false,
+    };
+    known.iter().filter(is_new).copied().collect()
 }
 
 fn fitted(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
