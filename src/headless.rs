@@ -95,7 +95,7 @@ mod egl {
     use glutin::surface::{PbufferSurface, SurfaceAttributesBuilder};
 
     use super::*;
-    use crate::gl::trace;
+    use crate::gl::{keep_heap, trace};
 
     /// What must stay alive while the context is in use.
     pub struct Current {
@@ -228,6 +228,7 @@ mod egl {
     fn make_current(device: &EglDevice, size: [u32; 2]) -> Result<Current> {
         let refused =
             |what: &'static str| move |error| Error::gl(format!("EGL: {what} failed: {error}"));
+        keep_heap();
         let [Some(width), Some(height)] = size.map(NonZeroU32::new) else {
             return Err(Error::usage("a picture of 0 pixels, expected 1×1 or more"));
         };

@@ -7,6 +7,7 @@
 
 mod check;
 pub mod edits;
+mod heap;
 pub mod inspect;
 pub mod mesh;
 mod overlay;
@@ -21,6 +22,7 @@ pub use glow::Context;
 use glow::HasContext;
 
 pub use check::{check_errors, check_framebuffer};
+pub use heap::keep_heap;
 pub use mesh::Mesh;
 pub use overlay::{Area, Overlay};
 pub use read::{

@@ -25,7 +25,7 @@ use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes};
 
 use super::{Api, View};
-use crate::gl::trace;
+use crate::gl::{keep_heap, trace};
 use crate::{Error, Result};
 
 /// In Hz, where the desktop does not say.
@@ -53,6 +53,7 @@ pub struct Beside {
 
 impl Canvas {
     pub fn open(event_loop: &ActiveEventLoop, view: &View) -> Result<Self> {
+        keep_heap();
         let refused = |what: &'static str| move |error| refused(what, error);
         let display = open_display(event_loop, view.api)?;
         let config = choose_config(&display)?;
