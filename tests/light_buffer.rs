@@ -10,7 +10,7 @@ use glam::{DVec3, Vec2, Vec3, Vec3Swizzles};
 use hard::{Case, cases};
 use shadowlab::ground_truth::{Label, Rays as TruthRays, Truth};
 use shadowlab::scene::Scene;
-use shadowlab::shadow_tests::exact::{Builder, DARK, FACES_LIGHT, LightBuffer};
+use shadowlab::shadow_tests::exact::{Builder, DARK, FACES_LIGHT, LightBuffer, SLAB};
 use shadowlab::shadow_tests::{Placed, Rays};
 
 const SIZE: [u32; 2] = [320, 240];
@@ -89,11 +89,12 @@ fn test(light_buffer: &LightBuffer, position_lcs: Vec3, normal_lcs: Vec3) -> (bo
         let own = on & FACES_LIGHT != 0
             && product < own_reach
             && plane.distance_squared(own_plane) < apart;
-        let least = if at < cell.first { 0.0 } else { reach };
+        let through_light = at < cell.first || on & SLAB != 0;
+        let least = if through_light { 0.0 } else { reach };
         tests += usize::from(at >= cell.first);
         next = next.max(at + 1);
         at = match product >= least && !own {
-            true => on & !FACES_LIGHT,
+            true => on & DARK,
             false => next,
         };
     }
@@ -102,7 +103,7 @@ fn test(light_buffer: &LightBuffer, position_lcs: Vec3, normal_lcs: Vec3) -> (bo
 
 /// Where the lists are.
 fn lists(light_buffer: &LightBuffer) -> std::ops::Range<usize> {
-    3 * light_buffer.triangle_count as usize..light_buffer.nodes.len()
+    light_buffer.first_list as usize..light_buffer.nodes.len()
 }
 
 /// How a light buffer does on a scene.
@@ -258,4 +259,39 @@ fn what_is_known_of_cells_saves_most_tests() {
         blind.tests > 10.0 * informed.tests,
         "{blind:?} {informed:?}"
     );
+}
+
+/// The controls of slabs, where lists are long: a ray that passes none of them by is tested against much more, and nothing
+/// else changes; one that passes all of them by misses what it should meet.
+#[test]
+fn slabs_save_tests_and_hide_nothing() {
+    for name in [
+        "bumpy sphere, spot",
+        "bumpy sphere, point",
+        "bumpy sphere, sun",
+    ] {
+        let case = cases().into_iter().find(|case| case.name == name);
+        let scene = case.expect("there is such a case").scene;
+        let rays = TruthRays::new(&scene, 0);
+        let truth = rays.truth(SIZE);
+        let mut builder = Builder::default();
+        let built = builder.build(&scene.lights[0], &placed(&scene));
+        let with_planes = |plane: [f32; 3]| {
+            let mut changed = built.clone();
+            let slabs = changed.nodes[lists(built)].iter_mut();
+            for [words @ .., _] in slabs.filter(|[.., on]| on & SLAB != 0) {
+                *words = plane.map(f32::to_bits);
+            }
+            score(&scene, &rays, &truth, &changed)
+        };
+        let as_it_is = score(&scene, &rays, &truth, built);
+        // No product with this is large enough, and every product with that is.
+        let [never, always] = [[f32::NAN; 3], [0.0; 3]].map(with_planes);
+        assert_eq!(never.false_shadow + never.false_light, 0, "{name}");
+        assert!(
+            never.tests > 1.2 * as_it_is.tests,
+            "{name}: {as_it_is:?} {never:?}"
+        );
+        assert!(always.false_light > 20, "{name}: {always:?}");
+    }
 }

@@ -8,7 +8,7 @@ struct LightBuffer {
     usamplerBuffer cells;
     // A node is a plane, in the bits of floats, with the node where to go on if the ray is on its positive side. First
     // three for each triangle: the planes through the light and its edges. Then the lists: the planes of casters, which
-    // lead to their edges.
+    // lead to their edges; and, in long ones, planes that lead past some of the list.
     isamplerBuffer nodes;
     // What the cells lie over: its corner, and how many cells there are to a unit, across and up.
     vec4 rectangle;
@@ -17,9 +17,11 @@ struct LightBuffer {
 };
 
 // Where the last edge leads to: behind all nodes.
-const int DARK = 0x7fffffff;
+const int DARK = 0x3fffffff;
 // In a list, beside where to go on: the caster faces the light.
 const int FACES_LIGHT = int(0x80000000);
+// Or: it is no caster's plane, but one through the light, as those of edges are.
+const int SLAB = 0x40000000;
 
 // A point lies in a plane that it is no farther from than this, as a share of the largest terms: some 160 roundings, since
 // drivers interpolate over a whole triangle. And two planes that differ by less than this, as a share, are one.
@@ -57,7 +59,8 @@ bool is_in_shadow(LightBuffer light_buffer, int face, vec2 place, float nearness
         vec3 difference = plane - own_plane;
         bool own = node.w < 0 && product < own_reach && dot(difference, difference) < apart;
         next = max(next, at + 1);
-        at = product >= (at < first ? 0 : reach) && !own ? node.w & ~FACES_LIGHT : next;
+        bool through_light = at < first || (node.w & SLAB) != 0;
+        at = product >= (through_light ? 0 : reach) && !own ? node.w & DARK : next;
     }
     return dark || at == DARK;
 }

@@ -137,7 +137,8 @@ pub fn visit_rows(
         for edge in &*edges {
             let (start, end) = (larger(edge.low, low), smaller(edge.high, high));
             if start <= end {
-                let [start, end] = [start, end].map(|y| edge.x + (y - edge.low) * edge.slope);
+                let start = edge.x + (start - edge.low) * edge.slope;
+                let end = edge.x + (end - edge.low) * edge.slope;
                 reached[0] = smaller(reached[0], smaller(start, end));
                 reached[1] = larger(reached[1], larger(start, end));
             }
@@ -152,7 +153,8 @@ pub fn visit_rows(
 fn cells([least, most]: [f64; 2], side: u32) -> [u32; 2] {
     let end = f64::from(side - 1);
     // What is not negative is rounded down.
-    [least - PADDING, most + PADDING].map(|place| smaller(larger(place, 0.0), end) as u32)
+    let cell = |place: f64| smaller(larger(place, 0.0), end) as u32;
+    [cell(least - PADDING), cell(most + PADDING)]
 }
 
 /// The least and the largest of some values.

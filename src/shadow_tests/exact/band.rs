@@ -1,11 +1,12 @@
 //! Some rows of cells while they are filled: which casters each cell lists, and what is known of it as a whole.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
 
-use super::caster::Listed;
+use super::caster::Caster;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
-use super::node::Node;
+use super::node::{self, Node};
+use super::slab::{self, Across, Reach};
 use crate::shadow_tests::polygon::{PADDING, extent, larger, smaller, visit_rows};
 use crate::shadow_tests::space::Rays;
 
@@ -30,23 +31,29 @@ pub struct Content<'a> {
     pub shapes: &'a [Shape],
     pub points: &'a [DVec3],
     pub seen: &'a [Seen],
-    /// By their numbers.
-    pub casters: &'a [Listed],
+    /// By their triangles' numbers.
+    pub casters: &'a [Caster],
 }
 
-/// A shape on a face.
+impl Content<'_> {
+    /// A caster's entry in a list.
+    pub fn node_of(&self, shape: u32) -> Node {
+        let caster = self.shapes[shape as usize].caster;
+        node::of_plane(&self.casters[caster as usize], shape)
+    }
+}
+
+/// A shape that a face sees in some row of a band.
 #[derive(Clone, Copy)]
 pub struct Piece {
     pub shape: u32,
     pub face: u32,
-    /// The first and the last row, counted through all faces.
-    pub rows: [u32; 2],
 }
 
 /// A caster that a cell of a band sees.
 struct Entry {
     cell: u32,
-    caster: u32,
+    shape: u32,
     /// The nearest that it comes to the light there.
     nearest: f32,
 }
@@ -58,8 +65,10 @@ pub struct Band {
     pub rows: [u32; 2],
     cells: Vec<Unfinished>,
     entries: Vec<Entry>,
-    /// How many entries are of use.
-    pub listed: u32,
+    /// What the long lists hold, list by list.
+    reaches: Vec<Reach>,
+    /// How many nodes all lists have together.
+    pub nodes: u32,
 }
 
 #[derive(Clone, Copy)]
@@ -71,21 +80,40 @@ struct Unfinished {
     some_of: u32,
     /// The farthest of that group here.
     farthest: f32,
+    /// Which way nearness grows, summed over the casters here.
+    slope: Vec2,
     /// How many entries are of use.
     listed: u32,
+    /// Where its casters' reaches begin among the band's; [`NONE`] where the list is short.
+    reaches: u32,
 }
+
+/// No group, or no place.
+const NONE: u32 = u32::MAX;
 
 const EMPTY: Unfinished = Unfinished {
     lit_above: f32::NEG_INFINITY,
     dark_below: f32::NEG_INFINITY,
-    boundary_of: u32::MAX,
-    some_of: u32::MAX,
+    boundary_of: NONE,
+    some_of: NONE,
     farthest: 0.0,
+    slope: Vec2::ZERO,
     listed: 0,
+    reaches: NONE,
 };
 
+impl Unfinished {
+    /// How many nodes its list has.
+    fn nodes(&self) -> u32 {
+        match self.reaches {
+            NONE => self.listed,
+            _ => slab::nodes(self.listed),
+        }
+    }
+}
+
 impl Band {
-    pub fn fill(&mut self, content: Content, pieces: &[Vec<Piece>]) {
+    pub fn fill<'a>(&mut self, content: Content, pieces: impl Iterator<Item = &'a Piece>) {
         let [first, last] = self.rows;
         let count = (last - first + 1) * content.layout.side;
         self.cells.clear();
@@ -93,10 +121,7 @@ impl Band {
         self.entries.clear();
         let mut first_of_group = 0;
         let mut group = 0;
-        for piece in pieces.iter().flatten() {
-            if piece.rows[0] > last || piece.rows[1] < first {
-                continue;
-            }
+        for piece in pieces {
             let shape = &content.shapes[piece.shape as usize];
             if shape.group != group {
                 self.cover(group, first_of_group);
@@ -109,13 +134,21 @@ impl Band {
             }
         }
         self.cover(group, first_of_group);
-        self.listed = 0;
         for entry in &self.entries {
             let cell = &mut self.cells[entry.cell as usize];
-            let is_of_use = u32::from(entry.nearest >= cell.dark_below);
-            cell.listed += is_of_use;
-            self.listed += is_of_use;
+            cell.listed += u32::from(entry.nearest >= cell.dark_below);
         }
+        let mut reaches = 0;
+        self.nodes = 0;
+        for cell in &mut self.cells {
+            // Where no outline passes, few points ask the list: the cell is dark as a whole.
+            if cell.boundary_of != NONE && cell.listed >= slab::LONG {
+                cell.reaches = reaches;
+                reaches += cell.listed;
+            }
+            self.nodes += cell.nodes();
+        }
+        self.reaches.resize(reaches as usize, Reach::default());
     }
 
     /// Where a group has no boundary, its edge does not run: it covers the cell as a whole, as soon as any of it is there.
@@ -172,6 +205,7 @@ impl Band {
         let caster = &casters[shape.caster as usize];
         let plane = layout.nearness(piece.face, caster.plane);
         let slope = plane.truncate();
+        let steepness = slope.as_vec2();
         let half_range = (0.5 + PADDING) * slope.abs().element_sum();
         // What rounding may do to a nearness, in parallel rays and relative.
         let (offset, share) = match layout.rays {
@@ -197,10 +231,11 @@ impl Band {
                     let index = (start + i64::from(column)) as u32;
                     self.entries.push(Entry {
                         cell: index,
-                        caster: shape.caster,
+                        shape: piece.shape,
                         nearest,
                     });
                     let cell = &mut self.cells[index as usize];
+                    cell.slope += steepness;
                     if nearest > cell.lit_above {
                         cell.lit_above = nearest;
                     }
@@ -213,8 +248,9 @@ impl Band {
         );
     }
 
-    /// The cells with their lists, one list behind the other, without what lies in the dark anyway.
-    pub fn write(&self, cells: &mut [Cell], lists: &mut [Node], first: u32, casters: &[Listed]) {
+    /// The cells with their lists, one list behind the other, without what lies in the dark anyway. `first` other nodes are
+    /// in front of the lists.
+    pub fn write(&mut self, content: Content, cells: &mut [Cell], lists: &mut [Node], first: u32) {
         let mut next = first;
         for (cell, from) in cells.iter_mut().zip(&self.cells) {
             *cell = Cell {
@@ -223,14 +259,40 @@ impl Band {
                 first: next,
                 end: next,
             };
-            next += from.listed;
+            next += from.nodes();
         }
         for entry in &self.entries {
-            let cell = &mut cells[entry.cell as usize];
-            if entry.nearest >= cell.dark_below {
-                lists[(cell.end - first) as usize] = casters[entry.caster as usize].node;
-                cell.end += 1;
+            let from = &self.cells[entry.cell as usize];
+            if entry.nearest < from.dark_below {
+                continue;
             }
+            let cell = &mut cells[entry.cell as usize];
+            if from.reaches == NONE {
+                lists[(cell.end - first) as usize] = content.node_of(entry.shape);
+            } else {
+                let place = from.reaches + cell.end - cell.first;
+                let across = self.across(content.layout, entry.cell);
+                self.reaches[place as usize] = across.reach(content, entry.shape);
+            }
+            cell.end += 1;
         }
+        let long = (0..).zip(cells).zip(&self.cells);
+        for ((index, cell), from) in long.filter(|(_, from)| from.reaches != NONE) {
+            let across = self.across(content.layout, index);
+            let reaches = &mut self.reaches[from.reaches as usize..][..from.listed as usize];
+            cell.end = cell.first + from.nodes();
+            let list = &mut lists[(cell.first - first) as usize..(cell.end - first) as usize];
+            across.write(content, reaches, list, cell.first);
+        }
+    }
+
+    fn across(&self, layout: Layout, cell: u32) -> Across {
+        let (row, column) = (cell / layout.side, cell % layout.side);
+        Across::new(
+            layout,
+            self.rows[0] + row,
+            column,
+            self.cells[cell as usize].slope,
+        )
     }
 }

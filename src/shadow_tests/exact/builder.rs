@@ -6,10 +6,10 @@ use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 use super::band::{Cell, Content};
-use super::caster::{Caster, Listed};
+use super::caster::Caster;
 use super::grid::Filling;
 use super::layout::{BOUNDARY, Layout, Seen, Shape};
-use super::node::{self, Node};
+use super::node::{self, EDGES, Node};
 use crate::scene::{Light, Mesh};
 use crate::shadow_tests::placed::{Placed, box_corners};
 use crate::shadow_tests::space::{LightSpace, Rays};
@@ -24,10 +24,11 @@ pub struct LightBuffer {
     pub space: LightSpace,
     pub layout: Layout,
     pub cells: Vec<Cell>,
-    /// Three for the edges of each triangle, in the order of the triangles' numbers: those of casters are filled in. Then
-    /// the cells' lists, one behind the other.
+    /// Three for the edges of each shape, which are left as they are where that is no caster. Then the cells' lists, one
+    /// behind the other.
     pub nodes: Vec<Node>,
-    pub triangle_count: u32,
+    /// Where the lists begin.
+    pub first_list: u32,
 }
 
 /// Builds light buffers. It keeps what it has found out about each mesh, and its memory: to ask for some megabytes takes
@@ -38,7 +39,7 @@ pub struct Builder {
     points: Vec<DVec3>,
     seen: Vec<Seen>,
     /// By the triangles' numbers, where they cast.
-    casters: Vec<Listed>,
+    casters: Vec<Caster>,
     shapes: Vec<Shape>,
     filling: Filling,
     spare: Option<LightBuffer>,
@@ -57,9 +58,8 @@ impl Builder {
         let (mut cells, mut nodes) = spare.unwrap_or_default();
         let faces = topologies.iter().map(|topology| topology.faces.len());
         let triangle_count: usize = faces.sum();
-        self.casters.resize(triangle_count, Listed::default());
         // What the last build left is written over, and not cleared.
-        nodes.resize(nodes.len().max(3 * triangle_count), Node::default());
+        self.casters.resize(triangle_count, Caster::default());
         self.points.clear();
         self.seen.clear();
         self.shapes.clear();
@@ -69,7 +69,6 @@ impl Builder {
             points: &mut self.points,
             seen: &mut self.seen,
             casters: &mut self.casters,
-            edges: &mut nodes,
             shapes: &mut self.shapes,
             groups: 0,
         };
@@ -91,16 +90,18 @@ impl Builder {
         };
         let listed = self.filling.fill(content);
         cells.resize(layout.cell_count(), Cell::default());
-        nodes.resize(3 * triangle_count + listed, Node::default());
-        let (_, lists) = nodes.split_at_mut(3 * triangle_count);
-        self.filling
-            .write(layout.side, &mut cells, lists, 3 * first, &self.casters);
+        let first_list = EDGES * self.shapes.len();
+        nodes.resize(first_list + listed, Node::default());
+        let (edges, lists) = nodes.split_at_mut(first_list);
+        write_edges(content, edges);
+        let first_list = first_list as u32;
+        self.filling.write(content, &mut cells, lists, first_list);
         self.spare.insert(LightBuffer {
             space,
             layout,
             cells,
             nodes,
-            triangle_count: first,
+            first_list,
         })
     }
 
@@ -134,8 +135,7 @@ struct Found<'a> {
     receivers: Vec<DVec3>,
     points: &'a mut Vec<DVec3>,
     seen: &'a mut Vec<Seen>,
-    casters: &'a mut [Listed],
-    edges: &'a mut [Node],
+    casters: &'a mut [Caster],
     shapes: &'a mut Vec<Shape>,
     groups: u32,
 }
@@ -154,21 +154,15 @@ impl Found<'_> {
         let (receivers, points) = (&self.receivers, &self.points);
         let numbers = first as usize..first as usize + topology.faces.len();
         let faces = topology.faces.par_iter().with_min_len(WORTH_A_THREAD);
-        let faces = faces
-            .zip(&topology.closed)
-            .zip(&mut self.casters[numbers.clone()])
-            .zip(self.edges[3 * numbers.start..3 * numbers.end].par_chunks_mut(3))
-            .zip(numbers.into_par_iter());
-        let casts = faces.map(|((((face, closed), caster), edges), number)| {
-            let corners = face.map(|i| points[first_point + i as usize]);
+        let faces = faces.zip(&topology.closed).zip(&mut self.casters[numbers]);
+        let casts = faces.map(|((face, closed), caster)| {
+            let corners = corners(&points[first_point..], *face);
             let found = Caster::new(rays, corners, *closed);
             let Some(found) = found.filter(|found| casts_on_something(rays, found, receivers))
             else {
                 return Cast::Nothing;
             };
-            *caster = found.listed(number as u32);
-            let planes = found.edges(rays, corners);
-            edges.copy_from_slice(&node::of_edges(planes, number as u32));
+            *caster = found;
             match found.faces_light {
                 true => Cast::FacingLight,
                 false => Cast::FacingAway,
@@ -186,6 +180,13 @@ impl Found<'_> {
             .with_min_len(WORTH_A_THREAD)
             .fold(Vec::new, |mut found, edge| {
                 let uses = topology.uses(edge);
+                // Nearly all edges: between two casters, or between two others.
+                if let [one, other] = uses
+                    && casts[one.face as usize] == casts[other.face as usize]
+                    && one.direction + other.direction == 0
+                {
+                    return found;
+                }
                 let mut balances = [0; 2];
                 for Use { face, direction } in uses {
                     match casts[*face as usize] {
@@ -232,6 +233,27 @@ impl Found<'_> {
             }
         }
     }
+}
+
+/// By hand: `map` of an array may be left as calls, here and in the other loops over all triangles.
+fn corners(points: &[DVec3], [a, b, c]: [u32; 3]) -> [DVec3; 3] {
+    let corner = |point: u32| points[point as usize];
+    [corner(a), corner(b), corner(c)]
+}
+
+/// The planes through the light and the casters' edges.
+fn write_edges(content: Content, nodes: &mut [Node]) {
+    let rays = content.layout.rays;
+    let nodes = nodes
+        .par_chunks_exact_mut(EDGES)
+        .with_min_len(WORTH_A_THREAD);
+    let shapes = nodes.zip(content.shapes).enumerate();
+    let casters = shapes.filter(|(_, (_, shape))| shape.caster != BOUNDARY);
+    casters.for_each(|(place, (nodes, shape))| {
+        let corners = corners(content.points, shape.points);
+        let planes = content.casters[shape.caster as usize].edges(rays, corners);
+        nodes.copy_from_slice(&node::of_edges(planes, place as u32));
+    });
 }
 
 /// Whether anything of the scene can be behind a triangle: a floor under everything casts on nothing.

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::node::{self, Node};
 use crate::shadow_tests::polygon::larger;
 use crate::shadow_tests::space::Rays;
 
@@ -14,7 +13,7 @@ const EDGE_ON: f64 = 1e-12;
 const TOLERANCE: f64 = 1e-6;
 
 /// A triangle that casts, in the light's space.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Caster {
     pub faces_light: bool,
     /// plane · through(point) is 1 on the triangle's plane, and more behind it. Where rays are parallel it is the plane's
@@ -24,15 +23,6 @@ pub struct Caster {
     pub shifted: DVec3,
     /// What rounding may add to plane · through(point) anywhere on the triangle.
     pub rounding: f64,
-}
-
-/// A caster as the grid lists it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Listed {
-    pub plane: DVec3,
-    pub rounding: f64,
-    /// Its entry in a list.
-    pub node: Node,
 }
 
 /// How far a triangle's normal points the way that the rays go, in whatever unit: negative where it faces the light.
@@ -67,8 +57,8 @@ impl Caster {
             Rays::Parallel => DVec3::new(normal.x, normal.y, normal.dot(a)),
         };
         let plane = plane * along.recip();
-        let largest_terms = corners.map(|p| (plane * rays.through(p)).abs().element_sum());
-        let largest_terms = largest_terms.into_iter().fold(0.0, larger);
+        let terms = |p: DVec3| (plane * rays.through(p)).abs().element_sum();
+        let largest_terms = larger(terms(a), larger(terms(b), terms(c)));
         let rounding = TOLERANCE
             * match rays {
                 Rays::Spot | Rays::Point => largest_terms,
@@ -89,21 +79,13 @@ impl Caster {
         })
     }
 
-    /// What the grid needs of it, under this number.
-    pub fn listed(&self, number: u32) -> Listed {
-        Listed {
-            plane: self.plane,
-            rounding: self.rounding,
-            node: node::of_plane(self, number),
-        }
-    }
-
     /// Planes through the light and an edge each; the triangle is on the positive side. Two triangles that share an edge
     /// have the same plane to the last bit, but for its sign: a ray passes one of them on its positive side.
     pub fn edges(&self, rays: Rays, corners: [DVec3; 3]) -> [DVec3; 3] {
-        let [a, b, c] = corners.map(|corner| rays.through(corner));
+        let [a, b, c] = corners;
+        let [a, b, c] = [rays.through(a), rays.through(b), rays.through(c)];
         let sign = if self.faces_light { -1.0 } else { 1.0 };
-        [a.cross(b), b.cross(c), c.cross(a)].map(|edge| sign * edge)
+        [sign * a.cross(b), sign * b.cross(c), sign * c.cross(a)]
     }
 
     /// Whether a point is behind the triangle's plane, as far as the test can tell.

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::band::{Band, Cell, Content, Piece};
 use super::builder::WORTH_A_THREAD;
-use super::caster::Listed;
 use super::node::Node;
 use crate::shadow_tests::polygon::rows;
 
@@ -23,59 +22,60 @@ pub struct Filling {
 impl Filling {
     /// Fills the grid; returns how long all lists are together.
     pub fn fill(&mut self, content: Content) -> usize {
-        let shapes = (0..content.shapes.len()).into_par_iter();
-        let pieces = shapes
-            .with_min_len(WORTH_A_THREAD)
-            .fold(Vec::new, |mut pieces, index| {
-                add_pieces(&mut pieces, content, index);
-                pieces
-            });
-        let pieces: Vec<Vec<Piece>> = pieces.collect();
-
-        let all_rows = (content.layout.faces() * content.layout.side) as usize;
+        let all_rows = content.layout.faces() * content.layout.side;
         let bands = match content.shapes.len() < WORTH_A_THREAD {
             true => 1,
-            false => BANDS_FOR_A_THREAD * rayon::current_num_threads(),
+            false => (BANDS_FOR_A_THREAD * rayon::current_num_threads()) as u32,
         };
-        self.bands.resize_with(bands.min(all_rows), Band::default);
-        let count = self.bands.len();
-        for (i, band) in self.bands.iter_mut().enumerate() {
-            band.rows = [
-                (i * all_rows / count) as u32,
-                ((i + 1) * all_rows / count - 1) as u32,
-            ];
+        let count = bands.min(all_rows);
+        self.bands.resize_with(count as usize, Band::default);
+        for (band, i) in self.bands.iter_mut().zip(0..) {
+            band.rows = [i * all_rows / count, (i + 1) * all_rows / count - 1];
         }
-        let bands = self.bands.par_iter_mut();
-        bands.for_each(|band| band.fill(content, &pieces));
-        self.bands.iter().map(|band| band.listed as usize).sum()
+
+        // Some shapes at a time, sorted into bands.
+        let bands = &self.bands;
+        let shapes = (0..content.shapes.len()).into_par_iter();
+        let pieces = shapes.with_min_len(WORTH_A_THREAD).fold(
+            || vec![Vec::new(); bands.len()],
+            |mut pieces, index| {
+                add_pieces(&mut pieces, bands, content, index);
+                pieces
+            },
+        );
+        let pieces: Vec<Vec<Vec<Piece>>> = pieces.collect();
+        let bands = self.bands.par_iter_mut().enumerate();
+        bands.for_each(|(i, band)| band.fill(content, pieces.iter().flat_map(|pieces| &pieces[i])));
+        self.bands.iter().map(|band| band.nodes as usize).sum()
     }
 
     /// The cells, and their lists as nodes; in front of those are `first` others.
     pub fn write(
-        &self,
-        side: u32,
+        &mut self,
+        content: Content,
         mut cells: &mut [Cell],
         mut lists: &mut [Node],
         mut first: u32,
-        casters: &[Listed],
     ) {
         let mut parts = Vec::new();
-        for band in &self.bands {
+        for band in &mut self.bands {
             let [first_row, last_row] = band.rows;
+            let count = (last_row - first_row + 1) * content.layout.side;
             let of_band;
-            (of_band, cells) = cells.split_at_mut(((last_row - first_row + 1) * side) as usize);
+            (of_band, cells) = cells.split_at_mut(count as usize);
+            let nodes = band.nodes;
             let its_lists;
-            (its_lists, lists) = lists.split_at_mut(band.listed as usize);
+            (its_lists, lists) = lists.split_at_mut(nodes as usize);
             parts.push((band, of_band, its_lists, first));
-            first += band.listed;
+            first += nodes;
         }
         let parts = parts.into_par_iter();
-        parts.for_each(|(band, cells, lists, first)| band.write(cells, lists, first, casters));
+        parts.for_each(|(band, cells, lists, first)| band.write(content, cells, lists, first));
     }
 }
 
-/// Adds the pieces of a shape: one where one face sees all of it.
-fn add_pieces(pieces: &mut Vec<Piece>, content: Content, index: usize) {
+/// Adds the pieces of a shape to those of the bands: one where one face and one band see all of it.
+fn add_pieces(pieces: &mut [Vec<Piece>], bands: &[Band], content: Content, index: usize) {
     let Content {
         layout,
         shapes,
@@ -91,12 +91,20 @@ fn add_pieces(pieces: &mut Vec<Piece>, content: Content, index: usize) {
     for face in faces {
         let outline = layout.outline(shape, face, points, seen);
         let corners = outline.corners();
-        if !corners.is_empty() {
-            pieces.push(Piece {
-                shape: index as u32,
-                face,
-                rows: rows(corners, layout.side).map(|row| face * layout.side + row),
-            });
+        if corners.is_empty() {
+            continue;
+        }
+        let [first, last] = rows(corners, layout.side).map(|row| face * layout.side + row);
+        let piece = Piece {
+            shape: index as u32,
+            face,
+        };
+        let before = bands.partition_point(|band| band.rows[1] < first);
+        let reached = bands[before..]
+            .iter()
+            .take_while(|band| band.rows[0] <= last);
+        for (_, pieces) in reached.zip(&mut pieces[before..]) {
+            pieces.push(piece);
         }
     }
 }

@@ -10,9 +10,9 @@ use crate::shadow_tests::space::Rays;
 /// How many cells there are for each caster: fewer make longer lists, more take longer to fill. Between 4 and 16 the frames
 /// of the labs' scenes differ by less than a tenth.
 const CELLS_FOR_A_CASTER: f64 = 8.0;
-/// The least and the most cells on each side of the grid: to fill fewer costs nothing, and with 118,000 casters to fill
-/// 512 a side takes a third longer than 256.
-const SIDES: [f64; 2] = [64.0, 256.0];
+/// The least and the most cells on each side of the grid: to fill fewer costs nothing, and with 100,000 casters to fill
+/// 256 a side takes half as long again as 160, which shorter lists do not make up for.
+const SIDES: [f64; 2] = [64.0, 160.0];
 
 /// What the light's view has at most: the beam, or a face.
 const VIEW: [DVec2; 2] = [DVec2::NEG_ONE, DVec2::ONE];
@@ -74,10 +74,11 @@ impl Layout {
                 };
                 let shapes = casters.par_iter().with_min_len(WORTH_A_THREAD);
                 let rectangles = shapes.map(|shape| {
-                    let places = shape.points.map(|i| seen[i as usize]);
-                    if places.iter().all(|seen| seen.face == 0) {
-                        let places = places.map(|seen| [seen.place; 2]);
-                        return places.into_iter().fold(nothing(), join);
+                    let [a, b, c] = shape.points;
+                    let [a, b, c] = [seen[a as usize], seen[b as usize], seen[c as usize]];
+                    if a.face == 0 && b.face == 0 && c.face == 0 {
+                        let [a, b, c] = [a.place, b.place, c.place];
+                        return [a.min(b).min(c), a.max(b).max(c)];
                     }
                     let polygon = shape.on_face(rays, 0, points);
                     let [view_least, view_most] = VIEW;
@@ -112,15 +113,19 @@ impl Layout {
 
     /// The face that sees all corners of a shape, if that is one.
     pub fn face_of(&self, shape: &Shape, seen: &[Seen]) -> Option<u32> {
-        let [a, b, c] = shape.points.map(|i| seen[i as usize].face);
-        (a == b && b == c && a != NOWHERE).then_some(a)
+        let [a, b, c] = shape.points;
+        let face = |point: u32| seen[point as usize].face;
+        let first = face(a);
+        (first != NOWHERE && first == face(b) && first == face(c)).then_some(first)
     }
 
     /// What a face sees of a shape, in cells.
     pub fn outline(&self, shape: &Shape, face: u32, points: &[DVec3], seen: &[Seen]) -> Outline {
         let to_cells = |place: DVec2| (place - self.least) * self.scale;
         if self.face_of(shape, seen) == Some(face) {
-            return Outline::Triangle(shape.points.map(|i| to_cells(seen[i as usize].place)));
+            let [a, b, c] = shape.points;
+            let corner = |point: u32| to_cells(seen[point as usize].place);
+            return Outline::Triangle([corner(a), corner(b), corner(c)]);
         }
         let padding = PADDING / self.scale;
         let polygon = shape.on_face(self.rays, face, points).clipped(
@@ -129,6 +134,16 @@ impl Layout {
         );
         let corners = polygon.corners().iter();
         Outline::Clipped(corners.map(|c| to_cells(c.truncate() / c.z)).collect())
+    }
+
+    /// A plane in the light's space, from what it has of (x, y, 1), in cells: the other way round than [`Self::nearness`].
+    pub fn plane(&self, face: u32, in_cells: DVec3) -> DVec3 {
+        let slope = in_cells.truncate() * self.scale;
+        let on_face = slope.extend(in_cells.z - slope.dot(self.least));
+        match self.rays {
+            Rays::Spot | Rays::Parallel => DVec3::new(on_face.x, on_face.y, -on_face.z),
+            Rays::Point => from_face(face, on_face),
+        }
     }
 
     /// The nearness of a caster's plane: what it has of (x, y, 1), in cells.
@@ -148,7 +163,7 @@ pub struct Shape {
     pub points: [u32; 3],
     /// The casters of one component that face one way.
     pub group: u32,
-    /// The caster's number; [`BOUNDARY`] if it is none.
+    /// The caster's triangle; [`BOUNDARY`] if it is none.
     pub caster: u32,
 }
 
@@ -156,8 +171,7 @@ pub const BOUNDARY: u32 = u32::MAX;
 
 impl Shape {
     fn on_face(&self, rays: Rays, face: u32, points: &[DVec3]) -> Polygon {
-        let corners = self.points.map(|i| on_face(rays, face, points[i as usize]));
-        Polygon::new(corners)
+        Polygon::new(self.points.map(|i| on_face(rays, face, points[i as usize])))
     }
 }
 
@@ -193,4 +207,16 @@ fn on_face(rays: Rays, face: u32, point: DVec3) -> DVec3 {
             )
         }
     }
+}
+
+/// Where a point is that a face of a point light sees there: the other way round than [`on_face`].
+fn from_face(face: u32, seen: DVec3) -> DVec3 {
+    let face = face as usize;
+    let axis = face / 2;
+    let along = [1.0, -1.0][face % 2];
+    let mut point = DVec3::ZERO;
+    point[(axis + 1) % 3] = seen.x;
+    point[(axis + 2) % 3] = seen.y;
+    point[axis] = along * seen.z;
+    point
 }

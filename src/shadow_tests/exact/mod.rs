@@ -11,6 +11,7 @@
 //! | which triangles can cast onto something | `builder.rs` |
 //! | how cells lie over the light's view, and where in it a triangle is seen | `layout.rs` |
 //! | which cells each of them meets, and which cells are lit or dark as a whole | `grid.rs`, `band.rs`, `../polygon.rs` |
+//! | what a ray passes by together, where a list is long | `slab.rs` |
 //! | the planes as the shader goes through them | `node.rs` |
 //! | the buffer textures and the uniforms | `gpu.rs` |
 //! | the test | `glsl/shadow_tests/exact.frag` |
@@ -38,12 +39,13 @@ mod gpu;
 mod grid;
 mod layout;
 mod node;
+mod slab;
 
 pub use band::Cell;
 pub use builder::{Builder, LightBuffer};
 pub use gpu::{Binding, ExactTest, LIGHT_BUFFER};
 pub use layout::Layout;
-pub use node::{DARK, FACES_LIGHT, Node};
+pub use node::{DARK, FACES_LIGHT, Node, SLAB};
 
 /// The file of [`super::SHADERS`].
 pub const SHADER: &str = "shadow_tests/exact.frag";
