@@ -16,7 +16,7 @@ struct LightBuffer {
     int side;
 };
 
-// Where the last edge leads to: behind all nodes.
+// Where the last edge leads to: behind all nodes. And the bits of every place to go on.
 const int DARK = 0x3fffffff;
 // In a list, beside where to go on: the caster faces the light.
 const int FACES_LIGHT = int(0x80000000);
